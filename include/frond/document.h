@@ -1,0 +1,100 @@
+/// @file document.h
+/// The `.frond` document: XML with places for every error, written back as the user wrote it.
+///
+/// Two levels. The *tree* is the text itself, lossless: elements, attributes, comments, white
+/// space, each with its span; edits change the tree and an unchanged document is written
+/// byte for byte. The *definitions* (materials, curves, p-graphs, scene) are read from the tree.
+#pragma once
+
+#include "frond/context.h"
+#include "frond/material.h"
+#include "frond/pgraph.h"
+
+typedef struct FrDocument FrDocument;
+
+/// Reads and checks a document. On FR_OK there are no errors in it. Otherwise *document is still
+/// set if the text is well-formed XML, so that an editor can show it, else NULL.
+FR_API FR_MUST_USE FrStatus fr_document_load(const char *path, const FrContext *context,
+                                             FrDocument **document);
+FR_API FR_MUST_USE FrStatus fr_document_parse(FrSource *source, const char *folder,
+                                              const FrContext *context, FrDocument **document);
+FR_API void fr_document_free(FrDocument *document);
+/// The text as it would be saved.
+FR_API char *fr_document_text(const FrDocument *document, size_t *size);
+/// Writes beside `path`, flushes, renames.
+FR_API FR_MUST_USE FrStatus fr_document_save(const FrDocument *document, const char *path,
+                                             FrDiags *diags);
+/// `path` is `id.attribute` or `plant.component.attribute`, e.g. `trunk.length`; `value` the
+/// attribute's text. A bad path lists near names. The definitions follow.
+FR_API FR_MUST_USE FrStatus fr_document_set(FrDocument *document, const char *path,
+                                            const char *value, const FrContext *context);
+
+// ---- what is in it ----------------------------------------------------------------------------
+
+typedef enum FrPlantKind { FR_PLANT_PGRAPH } FrPlantKind;
+
+/// A `<plant>`: a name, a seed and one engine's definition.
+typedef struct FrPlantDef {
+    char *id;
+    uint64_t seed;
+    FrPlantKind kind;
+    FrPgraph *pgraph; ///< for FR_PLANT_PGRAPH
+    FrSpan span;
+} FrPlantDef;
+
+/// A `<place>` of a scene: one plant and where it stands.
+#define FR_PLACE_PARAMS(X)                                                                         \
+    X(TEXT, plant, "", 0, 0, "", "", "id of the plant")                                            \
+    X(VECTOR, at, "0, 0, 0", -1000000, 1000000, "m", "", "where it stands")                        \
+    X(REAL, turn, "0", -360000, 360000, "deg", "", "turned about the vertical")                    \
+    X(REAL, scale, "1", 0.001, 1000, "", "", "size")                                               \
+    X(INTEGER, seed, "-1", -1, 4294967295.0, "", "", "own seed; -1: that of the plant")
+
+/// Sun, sky and ground of a scene.
+#define FR_SCENE_PARAMS(X)                                                                         \
+    X(REAL, sun_azimuth, "135", -360, 360, "deg", "", "direction of the sun, from +y clockwise")   \
+    X(REAL, sun_elevation, "42", -10, 90, "deg", "", "height of the sun above the horizon")        \
+    X(REAL, sun_strength, "1", 0, 20, "", "", "strength of the sun; 1 is a clear day")             \
+    X(REAL, sky_strength, "1", 0, 20, "", "", "strength of the sky's light")                       \
+    X(REAL, turbidity, "3", 1, 10, "", "", "haze: 2 clear mountain air, 10 haze")                  \
+    X(SWITCH, ground, "yes", 0, 1, "", "", "a ground to stand on")                                 \
+    X(COLOUR, ground_colour, "#6b6a4e", 0, 1, "", "", "colour of the ground")                      \
+    X(REAL, exposure, "0", -20, 20, "", "", "stops of exposure added to the automatic one")
+
+/// A view. Angles and distance count from the middle of what is looked at.
+#define FR_VIEW_PARAMS(X)                                                                          \
+    X(TEXT, name, "", 0, 0, "", "", "name of the view")                                            \
+    X(REAL, azimuth, "-30", -3600, 3600, "deg", "", "from where, about the vertical, from -y")     \
+    X(REAL, elevation, "8", -89, 89, "deg", "", "from how high above")                             \
+    X(REAL, field_of_view, "35", 1, 120, "deg", "", "of the picture's height")                     \
+    X(REAL, zoom, "1", 0.01, 1000, "", "", "1 frames the whole scene, 2 is twice as near")         \
+    X(VECTOR, look_at, "0, 0, 0", -1000000, 1000000, "m", "", "moved from the middle by")
+
+typedef struct FrPlace {
+    FR_PLACE_PARAMS(FR_PARAM_FIELD)
+    FrSpan span;
+} FrPlace;
+typedef struct FrSceneParams {
+    FR_SCENE_PARAMS(FR_PARAM_FIELD)
+} FrSceneParams;
+typedef struct FrViewParams {
+    FR_VIEW_PARAMS(FR_PARAM_FIELD)
+} FrViewParams;
+
+FR_API const FrParamTable *fr_place_table(void);
+FR_API const FrParamTable *fr_scene_table(void);
+FR_API const FrParamTable *fr_view_table(void);
+
+FR_API const char *fr_document_name(const FrDocument *document);
+FR_API const char *fr_document_folder(const FrDocument *document);
+/// Arrays of FrPlantDef *, FrPlace *, FrViewParams * and FrMaterial *, owned by the document.
+FR_API const GPtrArray *fr_document_plants(const FrDocument *document);
+FR_API const GPtrArray *fr_document_places(const FrDocument *document);
+FR_API const GPtrArray *fr_document_views(const FrDocument *document);
+FR_API const GPtrArray *fr_document_materials(const FrDocument *document);
+FR_API const FrSceneParams *fr_document_scene(const FrDocument *document);
+
+/// The XML Schema (XSD 1.0) of the format, made from the parameter tables.
+FR_API char *fr_document_schema(void);
+/// The reference page of all elements and attributes, in Markdown, made from the same tables.
+FR_API char *fr_document_reference(void);

@@ -1,0 +1,80 @@
+/// @file material.h
+/// Materials of bark, leaves and petals; image files; textures made by the program.
+///
+/// Texture coordinates: u across, v along, (0, 0) at the top left of the picture as in glTF.
+/// A leaf's picture has its petiole at the bottom centre (v = 1) and its tip at the top (v = 0).
+#pragma once
+
+#include "frond/image.h"
+#include "frond/param.h"
+
+/// What a texture made by the program shows.
+typedef enum FrTextureKind {
+    FR_TEXTURE_NONE,
+    FR_TEXTURE_LEAF,          ///< blade with venation grown by space colonization (Runions 2005)
+    FR_TEXTURE_PETAL,         ///< petal with fine longitudinal veins and a base spot
+    FR_TEXTURE_BARK_FURROWED, ///< oak, chestnut, willow
+    FR_TEXTURE_BARK_SMOOTH,   ///< beech, cherry, birch: lenticels
+    FR_TEXTURE_BARK_PLATED,   ///< pine, plane
+} FrTextureKind;
+
+/// Parameters of a material. `texture` and the file names exclude each other.
+#define FR_MATERIAL_PARAMS(X)                                                                      \
+    X(COLOUR, colour, "#ffffff", 0, 1, "", "", "base colour; multiplies the picture")              \
+    X(COLOUR, second_colour, "#000000", 0, 1, "", "",                                              \
+      "veins of a leaf, base of a petal, depth of a bark; black: chosen from the base colour")     \
+    X(CHOICE, texture, "none", 0, 0, "", "none leaf petal bark-furrowed bark-smooth bark-plated",  \
+      "picture made by the program")                                                               \
+    X(TEXT, picture, "", 0, 0, "", "", "file of the base colour, PNG or JPEG, with alpha")         \
+    X(TEXT, normal_map, "", 0, 0, "", "", "file of the normal map, +Y up")                         \
+    X(TEXT, roughness_map, "", 0, 0, "", "", "file of the roughness, green channel")               \
+    X(REAL, roughness, "0.8", 0, 1, "", "", "0 mirror, 1 matt")                                    \
+    X(REAL, translucency, "0", 0, 1, "", "", "part of the light that shines through a blade")      \
+    X(REAL, alpha_cutoff, "0.5", 0, 1, "", "", "pixels with less alpha are holes")                 \
+    X(REAL, relief, "1", 0, 4, "", "", "strength of the normal map")                               \
+    X(REAL, tile_width, "0.5", 0.001, 100, "m", "", "width of one bark tile on the stem")          \
+    X(REAL, tile_height, "0.5", 0.001, 100, "m", "", "height of one bark tile on the stem")        \
+    X(INTEGER, size, "512", 16, 4096, "", "", "pixels a side of a picture made by the program")    \
+    X(INTEGER, seed, "1", 0, 4294967295.0, "", "", "seed of a picture made by the program")        \
+    X(CHOICE, venation, "closed", 0, 0, "", "open closed", "veins end freely, or form loops")      \
+    X(REAL, vein_density, "1", 0.1, 8, "", "", "density of veins relative to a typical leaf")      \
+    X(POINTS, outline, "", 0, 0, "", "",                                                           \
+      "half outline of the leaf in the picture: along 0-1, half width 0-0.5; empty: elliptic")     \
+    X(INTEGER, teeth, "0", 0, 200, "", "", "teeth on each side of the picture's margin")           \
+    X(REAL, tooth_depth, "0.03", 0, 0.5, "", "", "depth of the teeth, of the leaf's width")
+
+typedef struct FrMaterialParams {
+    FR_MATERIAL_PARAMS(FR_PARAM_FIELD)
+} FrMaterialParams;
+
+FR_API const FrParamTable *fr_material_table(void);
+
+/// A material and its pictures, loaded or made on first use. Reference counted, thread-safe.
+typedef struct FrMaterial FrMaterial;
+
+/// Takes a copy of `params`. File names are relative to `folder`.
+FR_API FrMaterial *fr_material_new(const char *name, const FrMaterialParams *params,
+                                   const char *folder, FrSpan span);
+FR_API FrMaterial *fr_material_ref(FrMaterial *material);
+FR_API void fr_material_unref(FrMaterial *material);
+FR_API const char *fr_material_name(const FrMaterial *material);
+FR_API const FrMaterialParams *fr_material_params(const FrMaterial *material);
+
+typedef enum FrMap {
+    FR_MAP_COLOUR,    ///< RGB or RGBA, sRGB; colour dilated under transparent pixels
+    FR_MAP_NORMAL,    ///< RGB, linear, +Y up
+    FR_MAP_ROUGHNESS, ///< RGB, linear: G roughness, B metallic 0, R 255
+    FR_MAP_COUNT
+} FrMap;
+
+/// True if the material has that picture; makes and reads nothing.
+FR_API bool fr_material_has(const FrMaterial *material, FrMap map);
+/// The picture (borrowed; lives as long as the material) or NULL if it has none or, with a
+/// diagnostic and *status set, if it cannot be read.
+FR_API const FrImage *fr_material_image(FrMaterial *material, FrMap map, const FrContext *context,
+                                        FrStatus *status);
+/// The bytes of a PNG or JPEG file of that picture: a user's own file unchanged, else a PNG.
+FR_API GBytes *fr_material_image_file(FrMaterial *material, FrMap map, const FrContext *context,
+                                      const char **media_type, FrStatus *status);
+/// True if any pixel of the colour picture may be a hole.
+FR_API bool fr_material_has_alpha(const FrMaterial *material);

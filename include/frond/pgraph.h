@@ -1,0 +1,66 @@
+/// @file pgraph.h
+/// Plants of linked components (Lintermann, Deussen 1999, Interactive Modeling of Plants).
+///
+/// A p-graph has component prototypes as nodes and creation dependencies as links. Building
+/// expands it to the tree of instances (the i-tree) and that to an FrPlant. What each component
+/// and parameter does: docs/components.md, generated from the tables.
+#pragma once
+
+#include "frond/param.h"
+#include "frond/plant.h"
+
+typedef enum FrComponentKind {
+    FR_COMPONENT_CAMERA,
+    FR_COMPONENT_SIMPLE,
+    FR_COMPONENT_HORN,
+    FR_COMPONENT_TREE,
+    FR_COMPONENT_LEAF,
+    FR_COMPONENT_PHIBALL,
+    FR_COMPONENT_COUNT
+} FrComponentKind;
+
+/// Parameters of a component kind; the struct's layout is private to the engine.
+FR_API const FrParamTable *fr_pgraph_table(FrComponentKind kind);
+
+/// How a child hangs on its parent (the paper's link kinds, in words).
+typedef enum FrLinkKind {
+    FR_LINK_CHILD,  ///< thin line: at the tip of a stem, on each place of a multiplier
+    FR_LINK_BRANCH, ///< bold: multiplied along the stem of a Tree, elsewhere like child
+    FR_LINK_LEAF,   ///< dashed: once, after a recursion has ended, elsewhere like child
+} FrLinkKind;
+
+typedef struct FrPgraph FrPgraph;
+
+FR_API FrPgraph *fr_pgraph_new(const char *name, uint64_t seed);
+FR_API void fr_pgraph_free(FrPgraph *graph);
+/// Adds a prototype with default parameters and returns its index. `id` must be new: else FR_NONE
+/// and a diagnostic.
+FR_API uint32_t fr_pgraph_add(FrPgraph *graph, FrComponentKind kind, const char *id, FrSpan span,
+                              FrDiags *diags);
+FR_API uint32_t fr_pgraph_count(const FrPgraph *graph);
+/// The index of the component of that id, or FR_NONE.
+FR_API uint32_t fr_pgraph_find(const FrPgraph *graph, const char *id);
+FR_API FrComponentKind fr_pgraph_kind(const FrPgraph *graph, uint32_t component);
+FR_API const char *fr_pgraph_id(const FrPgraph *graph, uint32_t component);
+/// The parameter struct that fr_pgraph_table() describes, to be set with fr_params_set().
+FR_API void *fr_pgraph_params(FrPgraph *graph, uint32_t component);
+FR_API FrStatus fr_pgraph_link(FrPgraph *graph, uint32_t from, uint32_t to, FrLinkKind kind,
+                               FrSpan span, FrDiags *diags);
+/// The `material` parameters of components name these. Takes a reference.
+FR_API void fr_pgraph_add_material(FrPgraph *graph, FrMaterial *material);
+/// Roots, unreachable components, cycles without a depth, unknown materials.
+FR_API FR_MUST_USE FrStatus fr_pgraph_check(const FrPgraph *graph, FrDiags *diags);
+
+/// What an expansion made. `by_component` has fr_pgraph_count() elements.
+typedef struct FrPgraphCounts {
+    uint64_t instances;
+    uint64_t *by_component; ///< owned by the caller's FrPgraphCounts; free with g_free()
+    uint32_t *parent;       ///< i-tree: parent instance of each, FR_NONE for roots; only on request
+    uint32_t *component;    ///< i-tree: component of each; only on request
+} FrPgraphCounts;
+
+/// Expands and builds. The number of instances, nodes and organs of each generation is counted
+/// and checked before it is made. `counts` may be NULL; set counts->parent to a non-NULL value to
+/// ask for the i-tree (it is replaced by an array).
+FR_API FR_MUST_USE FrStatus fr_pgraph_build(const FrPgraph *graph, const FrContext *context,
+                                            FrPlant **plant, FrPgraphCounts *counts);

@@ -1,0 +1,234 @@
+/// @file plant.h
+/// FrPlant: the one structure that every engine makes and everything else reads.
+///
+/// A plant is a set of *axes* (stems and branches), each a chain of *nodes* (one per internode),
+/// that bear *organs* (leaves, petals, fruits: placements of a few shared *shapes*) and *buds*.
+/// All are columns of arrays indexed by 32-bit ids; parents are stored before their children:
+///
+///     for (uint32_t i = 0; i < nodes.count; i++)      acropetal: base to tips
+///     for (uint32_t i = nodes.count; i-- > 0;)         basipetal: tips to base
+///
+///         ┌ organ (placement of a shape)
+///     ●───●───●───●   axis 1: nodes 5 6 7 8, bearer = node 1
+///         │ offset
+///     ●───●───●───●   axis 0: nodes 1 2 3 4          ● = tip of an internode
+///
+/// The *truth* of a node is its local rotation and its length; `position` and `frame` are a cache
+/// that fr_plant_update_frames() rebuilds. Frames have z along the internode (vector.h). Lengths
+/// are metres relative to the plant's origin. 72 bytes a node, all columns together.
+///
+/// Engines may write the columns directly and in parallel once they have appended the rows.
+#pragma once
+
+#include "frond/context.h"
+#include "frond/curve.h"
+#include "frond/digest.h"
+#include "frond/material.h"
+#include "frond/random.h"
+#include "frond/vector.h"
+
+/// Marks of nodes, axes and organs.
+enum {
+    FR_SHED = 1 << 0,       ///< fallen off; kept until fr_plant_compact()
+    FR_HIDDEN = 1 << 1,     ///< made but not shown
+    FR_CONTINUES = 1 << 2,  ///< axis: begins at its bearer's tip and goes on in its direction, so
+                            ///< skin joins the two without a collar or a cap
+    FR_CUT = 1 << 3,        ///< axis: ends in a flat face, not in a point
+    FR_POINT_SETS = 1 << 4, ///< axis: rings of its profile exactly at its nodes, never thinned out
+};
+
+/// Internodes. Node i runs from the tip of its parent (for the first node of an axis: from the
+/// axis' origin) to its own tip.
+typedef struct FrNodes {
+    uint32_t count, capacity;
+    uint32_t *parent;  ///< node it grows from; the bearer for the first of an axis; FR_NONE
+    uint32_t *next;    ///< next node on the same axis, FR_NONE at its end
+    uint32_t *axis;    ///< axis it belongs to
+    versors *rotation; ///< relative to the parent's frame (to the plant's if there is none)
+    float *length;     ///< m, ≥ 0
+    float *radius;     ///< m, at the tip
+    float *flatness;   ///< second radius (along y) over the first (along x); 1 is round
+    uint16_t *birth;   ///< step or frame of birth
+    uint16_t *flags;   ///< FR_SHED, FR_HIDDEN
+    vec3s *position;   ///< cache: tip, in the plant's coordinates
+    versors *frame;    ///< cache: rotation from the internode's frame to the plant's
+} FrNodes;
+
+/// Stems and branches.
+typedef struct FrAxes {
+    uint32_t count, capacity;
+    uint32_t *first, *last; ///< nodes; FR_NONE for an axis without any
+    uint32_t *bearer;       ///< node that bears it, FR_NONE for a stem on the ground
+    vec3s *offset;          ///< origin, from the bearer's tip in the bearer's frame (from the
+                            ///< plant's origin where there is no bearer)
+    float *base_radius;     ///< m, at its origin
+    uint16_t *order;        ///< 0 main stem, 1 its branches, …
+    uint16_t *flags;        ///< FR_SHED … FR_POINT_SETS
+    uint32_t *profile;      ///< cross-section, index into profiles; FR_NONE is a circle
+    uint32_t *material;     ///< index into materials; FR_NONE is the plain default
+    uint32_t *deformer;     ///< scope, index into deformers; FR_NONE
+    uint32_t *component;    ///< what made it: a component, production or stroke (provenance)
+    FrKey *path;            ///< where in the plant: key of random draws and of edits by hand
+} FrAxes;
+
+/// Leaves, petals, fruits, primitives.
+typedef struct FrOrgans {
+    uint32_t count, capacity;
+    uint32_t *node;      ///< bearing node, FR_NONE: the plant's origin
+    vec3s *offset;       ///< from the node's tip, in its frame
+    versors *rotation;   ///< shape to node frame; a blade grows along z, its upper face is y
+    float *scale;        ///< of the shape, > 0
+    uint32_t *shape;     ///< index into shapes
+    uint32_t *material;  ///< index into materials, FR_NONE
+    uint16_t *birth;     ///< step or frame of birth
+    uint16_t *flags;     ///< FR_SHED, FR_HIDDEN
+    uint32_t *deformer;  ///< as for axes
+    uint32_t *component; ///< as for axes
+    FrKey *path;         ///< as for axes
+} FrOrgans;
+
+typedef enum FrBudKind { FR_BUD_APICAL, FR_BUD_LATERAL, FR_BUD_FLORAL } FrBudKind;
+typedef enum FrBudState { FR_BUD_ACTIVE, FR_BUD_DORMANT, FR_BUD_DEAD, FR_BUD_SPROUTED } FrBudState;
+
+typedef struct FrBuds {
+    uint32_t count, capacity;
+    uint32_t *node;     ///< node at whose tip it sits
+    uint8_t *kind;      ///< FrBudKind
+    uint8_t *state;     ///< FrBudState
+    uint16_t *dormancy; ///< steps it has slept
+    vec3s *direction;   ///< unit, in the plant's coordinates
+    uint64_t *id;       ///< stable for the life of the plant
+} FrBuds;
+
+/// A polygon in two dimensions: the cross-section of an axis or the outline of a blade.
+typedef struct FrProfile {
+    double (*points)[2]; ///< owned
+    uint32_t count;
+    bool is_closed;
+} FrProfile;
+
+/// Leaf blade, petal or sepal in its own frame: base at the origin, midrib along z, upper face y.
+/// Angles in radians, lengths in metres at organ scale 1.
+typedef struct FrBlade {
+    float length, width;
+    float petiole_length, petiole_radius; ///< petiole from the origin, the blade begins at its end
+    float petiole_bend;                   ///< how far the petiole bends towards y, over its length
+    float curvature_along;                ///< turn of the midrib from base to tip, > 0 towards y
+    float curvature_across; ///< turn of a half blade from midrib to margin, > 0 towards y
+    float fold;             ///< angle each half is lifted about the midrib
+    float twist;            ///< turn about the midrib from base to tip
+    float wave, waves;      ///< height of margin waves over the width; how many along the blade
+    uint32_t outline;       ///< profile: points (along 0–1, half width 0–0.5 of `width`), both
+                            ///< halves if closed; FR_NONE is elliptic
+    uint32_t along_curve, across_curve; ///< profiles as y(x) that spread the curvatures, FR_NONE
+    uint16_t segments_along, segments_across; ///< ≥ 1; across: per half
+} FrBlade;
+
+typedef enum FrShapeKind {
+    FR_SHAPE_BLADE,
+    FR_SHAPE_BOX,
+    FR_SHAPE_SPHERE,
+    FR_SHAPE_CONE,
+    FR_SHAPE_CYLINDER,
+    FR_SHAPE_TORUS,
+    FR_SHAPE_SQUARE,
+    FR_SHAPE_CIRCLE,
+    FR_SHAPE_TRIANGLE,
+} FrShapeKind;
+
+/// What organs are placements of. Equal parameters give the same shape.
+typedef struct FrShape {
+    FrShapeKind kind;
+    vec3s size;      ///< primitives: extent along x, y, z; they stand on the origin, along z
+    uint32_t detail; ///< primitives: segments around, ≥ 3
+    FrBlade blade;   ///< for FR_SHAPE_BLADE
+} FrShape;
+
+/// Scope of a free-form deformation, applied by skin.
+typedef struct FrDeformer {
+    uint32_t outer; ///< scope around it, FR_NONE
+    uint32_t kind;  ///< 0: none (cuts off outer scopes)
+} FrDeformer;
+
+/// Name of what made an axis or an organ.
+typedef struct FrComponent {
+    char *id; ///< owned
+    FrSpan span;
+} FrComponent;
+
+typedef struct FrPlant {
+    char *name; ///< owned
+    FrNodes nodes;
+    FrAxes axes;
+    FrOrgans organs;
+    FrBuds buds;
+    GArray *shapes;          ///< FrShape
+    GArray *profiles;        ///< FrProfile
+    GPtrArray *materials;    ///< FrMaterial *, owned references
+    GArray *deformers;       ///< FrDeformer
+    GArray *components;      ///< FrComponent
+    GHashTable *shape_index; ///< private to fr_plant_add_shape()
+} FrPlant;
+
+FR_API FrPlant *fr_plant_new(const char *name);
+FR_API void fr_plant_free(FrPlant *plant);
+/// A deep copy (materials and sources are shared).
+FR_API FrPlant *fr_plant_copy(const FrPlant *plant);
+
+// ---- building ---------------------------------------------------------------------------------
+// Each appends `count` rows and returns the index of the first. The rows hold: FR_NONE in index
+// columns, identity rotations, scale, flatness 1, zero elsewhere. The caller has checked FrLimits.
+
+FR_API uint32_t fr_plant_append_nodes(FrPlant *plant, uint32_t count);
+FR_API uint32_t fr_plant_append_axes(FrPlant *plant, uint32_t count);
+FR_API uint32_t fr_plant_append_organs(FrPlant *plant, uint32_t count);
+FR_API uint32_t fr_plant_append_buds(FrPlant *plant, uint32_t count);
+
+/// Convenience for engines that grow one by one: appends a node to the end of `axis`, wires
+/// parent, next, first and last, and brings its cache up to date.
+FR_API uint32_t fr_plant_add_node(FrPlant *plant, uint32_t axis, versors rotation, float length,
+                                  float radius);
+/// Appends an empty axis borne by `bearer` (order = the bearer's + 1, or 0).
+FR_API uint32_t fr_plant_add_axis(FrPlant *plant, uint32_t bearer, vec3s offset, float base_radius);
+/// The index of an equal shape, appended if there is none.
+FR_API uint32_t fr_plant_add_shape(FrPlant *plant, const FrShape *shape);
+/// Copies the points; equal profiles are shared.
+FR_API uint32_t fr_plant_add_profile(FrPlant *plant, const double (*points)[2], uint32_t count,
+                                     bool is_closed);
+/// Takes a reference; a material already there gives its index.
+FR_API uint32_t fr_plant_add_material(FrPlant *plant, FrMaterial *material);
+FR_API uint32_t fr_plant_add_component(FrPlant *plant, const char *id, FrSpan span);
+
+// ---- passes -----------------------------------------------------------------------------------
+
+/// Rebuilds position and frame of nodes first … count−1. One forward loop.
+FR_API void fr_plant_update_frames(FrPlant *plant, uint32_t first);
+/// Where an axis begins and in which frame its first node's rotation is given. Reads the cache.
+FR_API vec3s fr_plant_axis_origin(const FrPlant *plant, uint32_t axis);
+/// Position and rotation of an organ in the plant's coordinates. Reads the cache.
+FR_API void fr_plant_organ_pose(const FrPlant *plant, uint32_t organ, vec3s *position,
+                                versors *rotation);
+
+/// Strahler number of every internode: 1 at tips; where the two largest children are equal, one
+/// more, else the largest. `order` has nodes.count elements.
+FR_API void fr_plant_strahler(const FrPlant *plant, uint32_t *order);
+/// Weibel generation of every internode: 0 at the base, one more behind each fork.
+FR_API void fr_plant_weibel(const FrPlant *plant, uint32_t *order);
+/// Botanical (Gravelius) order: that of the axis.
+FR_API void fr_plant_botanical(const FrPlant *plant, uint32_t *order);
+/// Radii by the pipe model (Shinozaki 1964; Murray 1926 for exponent 3): r^e is the sum of the
+/// children's r^e, tips have `tip_radius`. Sets node radii and base radii. exponent in [1, 4].
+FR_API void fr_plant_pipe_radii(FrPlant *plant, double exponent, double tip_radius);
+/// Removes what is marked FR_SHED and everything borne by it; order is kept.
+FR_API void fr_plant_compact(FrPlant *plant);
+/// Smallest box around node tips, axis origins and organ positions (not their shapes).
+/// min > max for an empty plant.
+FR_API void fr_plant_bounds(const FrPlant *plant, vec3s *min, vec3s *max);
+
+/// Digest of everything that is truth: all columns but the cache, shapes, profiles.
+FR_API FrDigest fr_plant_digest(const FrPlant *plant);
+/// Bytes allocated for all columns.
+FR_API uint64_t fr_plant_bytes(const FrPlant *plant);
+/// True if every index is in range, parents come first and chains are whole; `why` (may be NULL)
+/// receives the first violation, to be freed with g_free(). For tests and after importing.
+FR_API bool fr_plant_is_valid(const FrPlant *plant, char **why);

@@ -1,0 +1,23 @@
+/// @file render.h
+/// Path-traced stills: sun, physical sky, ground, masked and translucent leaves.
+#pragma once
+
+#include "frond/scene.h"
+
+#define FR_RENDER_PARAMS(X)                                                                        \
+    X(INTEGER, width, "960", 1, 32768, "", "", "pixels across")                                    \
+    X(INTEGER, height, "1200", 1, 32768, "", "", "pixels down")                                    \
+    X(INTEGER, samples, "64", 1, 65536, "", "", "paths per pixel")                                 \
+    X(INTEGER, bounces, "6", 0, 64, "", "", "longest path")                                        \
+    X(TEXT, view, "", 0, 0, "", "", "name of the view; empty: the first, or one that fits")
+
+typedef struct FrRenderParams {
+    FR_RENDER_PARAMS(FR_PARAM_FIELD)
+} FrRenderParams;
+
+FR_API const FrParamTable *fr_render_table(void);
+
+/// Renders the scene; the same for any number of threads.
+FR_API FR_MUST_USE FrStatus fr_render(const FrScene *scene, const FrRenderParams *params,
+                                      const FrSkinParams *skin, const FrContext *context,
+                                      FrImage **image);

@@ -1,0 +1,39 @@
+/// @file scene.h
+/// A document built: plants standing in a world, ready to be written, rendered or counted.
+#pragma once
+
+#include "frond/document.h"
+#include "frond/skin.h"
+
+/// One plant of the scene, built once however often it stands there.
+typedef struct FrScenePlant {
+    FrPlant *plant;
+    uint64_t instances;
+    uint64_t *by_component; ///< instances by component, as many as plant->components has
+} FrScenePlant;
+
+typedef struct FrStand {
+    uint32_t plant; ///< index into plants
+    double at[3];
+    double turn; ///< radians about z
+    double scale;
+} FrStand;
+
+typedef struct FrScene {
+    char *name;
+    GArray *plants;              ///< FrScenePlant
+    GArray *stands;              ///< FrStand
+    GPtrArray *views;            ///< FrViewParams *, borrowed from the document
+    const FrSceneParams *params; ///< borrowed from the document
+    uint64_t seed;
+} FrScene;
+
+/// Builds every plant that stands somewhere; a document without places shows its first plant at
+/// the origin. `seed` replaces the seeds of all plants unless it is negative. The document must
+/// outlive the scene.
+FR_API FR_MUST_USE FrStatus fr_scene_build(const FrDocument *document, int64_t seed,
+                                           const FrContext *context, FrScene **scene);
+FR_API void fr_scene_free(FrScene *scene);
+FR_API FrDigest fr_scene_digest(const FrScene *scene);
+/// The smallest box around everything, organs' shapes included roughly.
+FR_API void fr_scene_bounds(const FrScene *scene, double min[3], double max[3]);

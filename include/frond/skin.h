@@ -1,0 +1,65 @@
+/// @file skin.h
+/// A plant's surface: tubes along its axes, blades and primitives at its organs, as triangles.
+///
+/// The skeleton comes first and skin only reads it: level of detail never moves a branch. Counting
+/// comes before writing; every vertex and index is written once, in its final place.
+#pragma once
+
+#include "frond/plant.h"
+
+/// 32 bytes, interleaved: what glTF, OpenGL and Embree take as they are.
+typedef struct FrVertex {
+    float position[3];
+    float normal[3]; ///< unit
+    float uv[2];     ///< bark: anchored at the base, whole tiles around; blade: its picture
+} FrVertex;
+
+/// What one material covers. Indices count from the part's first vertex.
+typedef struct FrMeshPart {
+    uint32_t material; ///< index into the plant's materials, FR_NONE
+    bool is_foliage;   ///< blades: seen from both sides
+    uint64_t first_vertex, vertex_count;
+    uint64_t first_index, index_count;
+    float min[3], max[3]; ///< exact bounds of the positions
+} FrMeshPart;
+
+typedef struct FrMesh {
+    FrVertex *vertices;
+    uint64_t vertex_count;
+    uint32_t *indices; ///< three a triangle, counter-clockwise from outside
+    uint64_t index_count;
+    FrMeshPart *parts;
+    uint32_t part_count;
+} FrMesh;
+
+typedef enum FrUpAxis { FR_UP_Z, FR_UP_Y } FrUpAxis;
+
+/// Settings of a skin. X rows as in param.h.
+#define FR_SKIN_PARAMS(X)                                                                          \
+    X(INTEGER, lod, "0", 0, 8, "", "", "level of detail: 0 is finest, each level has some 40 %")   \
+    X(REAL, bend, "10", 0.5, 90, "deg", "", "a ring for every so many degrees a branch turns")     \
+    X(REAL, side_length, "0.02", 0.0001, 10, "m", "", "wanted length of a side of a tube")         \
+    X(INTEGER, min_sides, "4", 3, 128, "", "", "sides of the thinnest twigs")                      \
+    X(INTEGER, max_sides, "24", 3, 128, "", "", "sides of the thickest stems")                     \
+    X(REAL, collar, "1", 0, 4, "", "", "size of the collar at a branch's base; 0: none")           \
+    X(SWITCH, caps, "yes", 0, 1, "", "", "close the ends of tubes")                                \
+    X(SWITCH, foliage, "yes", 0, 1, "", "", "with organs; without: wood only")
+
+typedef struct FrSkinParams {
+    FR_SKIN_PARAMS(FR_PARAM_FIELD)
+} FrSkinParams;
+
+FR_API const FrParamTable *fr_skin_table(void);
+FR_API FrSkinParams fr_skin_default(void);
+
+/// The mesh of a whole plant: one part per material of wood, then one per material of organs.
+/// FR_ERR_LIMIT if it would have too many triangles; then *mesh is NULL and nothing was allocated.
+FR_API FR_MUST_USE FrStatus fr_skin_plant(const FrPlant *plant, const FrSkinParams *params,
+                                          FrUpAxis up, const FrContext *context, FrMesh **mesh);
+/// The mesh of one shape at scale 1 in its own frame, one part, for instancing.
+FR_API FR_MUST_USE FrStatus fr_skin_shape(const FrPlant *plant, uint32_t shape,
+                                          const FrSkinParams *params, FrUpAxis up,
+                                          const FrContext *context, FrMesh **mesh);
+FR_API void fr_mesh_free(FrMesh *mesh);
+/// Digest of vertices, indices and parts.
+FR_API FrDigest fr_mesh_digest(const FrMesh *mesh);
