@@ -1,0 +1,185 @@
+// Texts that diagnostics point into.
+#include "frond/diag.h"
+#include "frond/limits.h"
+
+#include "base/text.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+struct FrSource {
+    atomic_int references;
+    char *name;
+    char *text;
+    size_t size;
+};
+
+// Takes over `text`, which has a zero byte after `size`.
+static FrSource *new_source(const char *name, char *text, size_t size) {
+    FR_ASSERT(size < UINT32_MAX); // spans hold 32-bit offsets; readers are limited before
+    FrSource *source = g_new0(FrSource, 1);
+    atomic_init(&source->references, 1);
+    source->name = g_strdup(name);
+    source->text = text;
+    source->size = size;
+    return source;
+}
+
+FrSource *fr_source_new(const char *name, const char *text, size_t size) {
+    char *copy = g_malloc(size + 1);
+    if (size > 0) {
+        memcpy(copy, text, size);
+    }
+    copy[size] = 0;
+    return new_source(name, copy, size);
+}
+
+static FrSource *fail(FrDiags *diags, FrStatus *status, FrStatus why, const char *path,
+                      const char *reason) {
+    fr_diags_add(diags, FR_ERROR, "cannot-read", (FrSpan){0}, "cannot read '%s': %s", path, reason);
+    if (status != NULL) {
+        *status = why;
+    }
+    return NULL;
+}
+
+static FrSource *fail_by_errno(FrDiags *diags, FrStatus *status, int error, const char *path) {
+    bool is_wrong_path = error == ENOENT || error == ENOTDIR || error == EISDIR ||
+                         error == ENAMETOOLONG || error == ELOOP || error == ENXIO;
+    return fail(diags, status, is_wrong_path ? FR_ERR_DOCUMENT : FR_ERR_MACHINE, path,
+                g_strerror(error));
+}
+
+// Reads until `capacity` bytes or the end; -1 with errno set on failure.
+static ssize_t read_all(int file, char *to, size_t capacity) {
+    size_t size = 0;
+    while (size < capacity) {
+        ssize_t got = read(file, to + size, capacity - size);
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        if (got < 0) {
+            return -1;
+        }
+        if (got == 0) {
+            break;
+        }
+        size += (size_t)got;
+    }
+    return (ssize_t)size;
+}
+
+static FrSource *load_open_file(int file, const char *path, uint64_t max_bytes, FrDiags *diags,
+                                FrStatus *status) {
+    struct stat about;
+    if (fstat(file, &about) != 0) {
+        return fail_by_errno(diags, status, errno, path);
+    }
+    if (!S_ISREG(about.st_mode)) {
+        return fail(diags, status, FR_ERR_DOCUMENT, path,
+                    S_ISDIR(about.st_mode) ? "it is a folder" : "it is not a regular file");
+    }
+    if (max_bytes >= UINT32_MAX) {
+        max_bytes = UINT32_MAX - 1;
+    }
+    FrStatus limited = fr_limit_check((uint64_t)about.st_size, max_bytes, "document_bytes", path,
+                                      (FrSpan){0}, diags);
+    if (limited != FR_OK) {
+        if (status != NULL) {
+            *status = limited;
+        }
+        return NULL;
+    }
+    char *text = g_try_malloc((size_t)about.st_size + 1);
+    if (text == NULL) {
+        return fail_by_errno(diags, status, ENOMEM, path);
+    }
+    ssize_t size = read_all(file, text, (size_t)about.st_size);
+    if (size < 0) {
+        int error = errno;
+        g_free(text);
+        return fail_by_errno(diags, status, error, path);
+    }
+    text[size] = 0;
+    if (status != NULL) {
+        *status = FR_OK;
+    }
+    return new_source(path, text, (size_t)size);
+}
+
+FrSource *fr_source_load(const char *path, uint64_t max_bytes, FrDiags *diags, FrStatus *status) {
+    // Not blocking: opening a pipe that nobody writes to must not hang.
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0) {
+        return fail_by_errno(diags, status, errno, path);
+    }
+    FrSource *source = load_open_file(file, path, max_bytes, diags, status);
+    close(file);
+    return source;
+}
+
+FrSource *fr_source_ref(FrSource *source) {
+    if (source != NULL) {
+        atomic_fetch_add(&source->references, 1);
+    }
+    return source;
+}
+
+void fr_source_unref(FrSource *source) {
+    if (source == NULL || atomic_fetch_sub(&source->references, 1) > 1) {
+        return;
+    }
+    g_free(source->name);
+    g_free(source->text);
+    g_free(source);
+}
+
+const char *fr_source_name(const FrSource *source) {
+    return source->name;
+}
+
+const char *fr_source_text(const FrSource *source, size_t *size) {
+    if (size != NULL) {
+        *size = source->size;
+    }
+    return source->text;
+}
+
+void fr_source_position(const FrSource *source, size_t offset, uint32_t *line, uint32_t *column) {
+    const char *target = source->text + (offset < source->size ? offset : source->size);
+    const char *line_begin = source->text;
+    uint32_t line_number = 1;
+    for (;;) {
+        const char *newline = memchr(line_begin, '\n', (size_t)(target - line_begin));
+        if (newline == NULL) {
+            break;
+        }
+        line_begin = newline + 1;
+        line_number++;
+    }
+    const char *end = source->text + source->size;
+    uint32_t column_number = 1;
+    const char *at = line_begin;
+    while (at < target) {
+        at += fr_text_char(at, end).size;
+        // An offset within a character has the column of that character.
+        column_number += at <= target ? 1 : 0;
+    }
+    *line = line_number;
+    *column = column_number;
+}
+
+FrSpan fr_span_inside(FrSpan outer, size_t begin, size_t end) {
+    size_t size = outer.end - outer.begin;
+    size_t inner_begin = begin < size ? begin : size;
+    size_t inner_end = end < size ? end : size;
+    return (FrSpan){
+        .source = outer.source,
+        .begin = outer.begin + (uint32_t)inner_begin,
+        .end = outer.begin + (uint32_t)(inner_end < inner_begin ? inner_begin : inner_end),
+    };
+}
