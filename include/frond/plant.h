@@ -162,12 +162,13 @@ typedef struct FrPlant {
     FrAxes axes;
     FrOrgans organs;
     FrBuds buds;
-    GArray *shapes;          ///< FrShape
-    GArray *profiles;        ///< FrProfile
-    GPtrArray *materials;    ///< FrMaterial *, owned references
-    GArray *deformers;       ///< FrDeformer
-    GArray *components;      ///< FrComponent
-    GHashTable *shape_index; ///< private to fr_plant_add_shape()
+    GArray *shapes;            ///< FrShape
+    GArray *profiles;          ///< FrProfile
+    GPtrArray *materials;      ///< FrMaterial *, owned references
+    GArray *deformers;         ///< FrDeformer
+    GArray *components;        ///< FrComponent
+    GHashTable *shape_index;   ///< private to fr_plant_add_shape()
+    GHashTable *profile_index; ///< private to fr_plant_add_profile()
 } FrPlant;
 
 FR_API FrPlant *fr_plant_new(const char *name);
@@ -203,7 +204,7 @@ FR_API uint32_t fr_plant_add_component(FrPlant *plant, const char *id, FrSpan sp
 
 /// Rebuilds position and frame of nodes first … count−1. One forward loop.
 FR_API void fr_plant_update_frames(FrPlant *plant, uint32_t first);
-/// Where an axis begins and in which frame its first node's rotation is given. Reads the cache.
+/// Where an axis begins, in the plant's coordinates. Reads the cache.
 FR_API vec3s fr_plant_axis_origin(const FrPlant *plant, uint32_t axis);
 /// Position and rotation of an organ in the plant's coordinates. Reads the cache.
 FR_API void fr_plant_organ_pose(const FrPlant *plant, uint32_t organ, vec3s *position,

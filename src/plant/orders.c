@@ -1,0 +1,57 @@
+// Branch orders. Strahler 1957, Quantitative analysis of watershed geomorphology; Weibel 1963,
+// Morphometry of the human lung; Gravelius 1914. Parents come before children, so each is one or
+// two straight loops.
+#include "frond/plant.h"
+
+#include <string.h>
+
+// While a loop runs, the top bit of a node's entry holds one yes or no about its children.
+#define FR_MARK UINT32_C(0x80000000)
+
+void fr_plant_strahler(const FrPlant *plant, uint32_t *order) {
+    const uint32_t *parent = plant->nodes.parent;
+    memset(order, 0, (size_t)plant->nodes.count * sizeof *order);
+    // An entry holds the largest order among the children seen, marked if two of them have it.
+    for (uint32_t i = plant->nodes.count; i-- > 0;) {
+        uint32_t own = (order[i] & ~FR_MARK) + (order[i] >> 31);
+        own = own > 0 ? own : 1;
+        order[i] = own;
+        if (parent[i] != FR_NONE) {
+            uint32_t largest = order[parent[i]] & ~FR_MARK;
+            if (own > largest) {
+                order[parent[i]] = own;
+            } else if (own == largest) {
+                order[parent[i]] |= FR_MARK;
+            }
+        }
+    }
+}
+
+void fr_plant_weibel(const FrPlant *plant, uint32_t *order) {
+    const uint32_t *parent = plant->nodes.parent;
+    uint32_t count = plant->nodes.count;
+    memset(order, 0, (size_t)count * sizeof *order);
+    // First 1 for one child, marked for more: a fork.
+    for (uint32_t i = 0; i < count; i++) {
+        if (parent[i] != FR_NONE) {
+            order[parent[i]] = order[parent[i]] == 0 ? 1 : FR_MARK;
+        }
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t generation = 0;
+        if (parent[i] != FR_NONE) {
+            uint32_t below = order[parent[i]];
+            generation = (below & ~FR_MARK) + (below >> 31);
+        }
+        order[i] = (order[i] & FR_MARK) | generation;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        order[i] &= ~FR_MARK;
+    }
+}
+
+void fr_plant_botanical(const FrPlant *plant, uint32_t *order) {
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        order[i] = plant->axes.order[plant->nodes.axis[i]];
+    }
+}
