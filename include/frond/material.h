@@ -3,6 +3,15 @@
 ///
 /// Texture coordinates: u across, v along, (0, 0) at the top left of the picture as in glTF.
 /// A leaf's picture has its petiole at the bottom centre (v = 1) and its tip at the top (v = 0).
+///
+/// A leaf or petal fills its picture: a point `along` (0 base, 1 tip) and `across` (−0.5 to 0.5
+/// of the blade's full width, > 0 to the right) is at
+///
+///     u = 0.5 + across        v = 1 − along
+///
+/// The blade is painted opaque to 1 % of the picture beyond its outline, so geometry cut along the
+/// same outline never shows a transparent border; teeth are cut inwards from the outline, so
+/// geometry reaches their points. Samplers of such a picture clamp at its edges; barks repeat.
 #pragma once
 
 #include "frond/image.h"
@@ -18,7 +27,9 @@ typedef enum FrTextureKind {
     FR_TEXTURE_BARK_PLATED,   ///< pine, plane
 } FrTextureKind;
 
-/// Parameters of a material. `texture` and the file names exclude each other.
+/// Parameters of a material. Where a file is named for a map, it takes the place of the map that
+/// `texture` would make. White (the default) for a leaf or a bark that is made stands for a
+/// typical green or brown.
 #define FR_MATERIAL_PARAMS(X)                                                                      \
     X(COLOUR, colour, "#ffffff", 0, 1, "", "", "base colour; multiplies the picture")              \
     X(COLOUR, second_colour, "#000000", 0, 1, "", "",                                              \
@@ -60,21 +71,27 @@ FR_API void fr_material_unref(FrMaterial *material);
 FR_API const char *fr_material_name(const FrMaterial *material);
 FR_API const FrMaterialParams *fr_material_params(const FrMaterial *material);
 
+/// What multiplies the colour picture, sRGB: `colour`; but white for a picture made by the program,
+/// which holds `colour` already.
+FR_API vec3s fr_material_tint(const FrMaterial *material);
+
 typedef enum FrMap {
     FR_MAP_COLOUR,    ///< RGB or RGBA, sRGB; colour dilated under transparent pixels
     FR_MAP_NORMAL,    ///< RGB, linear, +Y up
-    FR_MAP_ROUGHNESS, ///< RGB, linear: G roughness, B metallic 0, R 255
+    FR_MAP_ROUGHNESS, ///< RGB, linear: G multiplies `roughness`, B metallic 0, R 255
     FR_MAP_COUNT
 } FrMap;
 
 /// True if the material has that picture; makes and reads nothing.
 FR_API bool fr_material_has(const FrMaterial *material, FrMap map);
 /// The picture (borrowed; lives as long as the material) or NULL if it has none or, with a
-/// diagnostic and *status set, if it cannot be read.
+/// diagnostic and *status set, if it cannot be read. Uses the context's pool: not to be called
+/// from inside a parallel loop.
 FR_API const FrImage *fr_material_image(FrMaterial *material, FrMap map, const FrContext *context,
                                         FrStatus *status);
 /// The bytes of a PNG or JPEG file of that picture: a user's own file unchanged, else a PNG.
 FR_API GBytes *fr_material_image_file(FrMaterial *material, FrMap map, const FrContext *context,
                                       const char **media_type, FrStatus *status);
-/// True if any pixel of the colour picture may be a hole.
+/// True if any pixel of the colour picture may be a hole: made leaves and petals, and PNG files
+/// that declare transparency (only the file's bytes are read).
 FR_API bool fr_material_has_alpha(const FrMaterial *material);
