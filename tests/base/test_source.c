@@ -1,0 +1,124 @@
+// Sources: reading files, positions, spans.
+#include "frond/diag.h"
+
+#include <glib/gstdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static void check_position(const FrSource *source, size_t offset, uint32_t line, uint32_t column) {
+    uint32_t l, c;
+    fr_source_position(source, offset, &l, &c);
+    g_assert_cmpuint(l, ==, line);
+    g_assert_cmpuint(c, ==, column);
+}
+
+static void test_positions(void) {
+    // a, é (2 bytes), newline, tab, 樹 (3 bytes), z
+    const char text[] = "a\xc3\xa9\n\t\xe6\xa8\xb9z";
+    FrSource *source = fr_source_new("s", text, sizeof text - 1);
+    check_position(source, 0, 1, 1);
+    check_position(source, 1, 1, 2);
+    check_position(source, 2, 1, 2); // inside é
+    check_position(source, 3, 1, 3);
+    check_position(source, 4, 2, 1);
+    check_position(source, 5, 2, 2);
+    check_position(source, 8, 2, 3);
+    check_position(source, 9, 2, 4);
+    check_position(source, 1000, 2, 4);
+    fr_source_unref(source);
+}
+
+static void test_text_is_copied(void) {
+    char text[] = "abc";
+    FrSource *source = fr_source_new("s", text, 2);
+    text[0] = 'X';
+    size_t size;
+    g_assert_cmpstr(fr_source_text(source, &size), ==, "ab");
+    g_assert_cmpuint(size, ==, 2);
+    fr_source_unref(source);
+}
+
+static void test_span_inside(void) {
+    FrSpan outer = {NULL, 10, 20};
+    FrSpan inner = fr_span_inside(outer, 2, 5);
+    g_assert_cmpuint(inner.begin, ==, 12);
+    g_assert_cmpuint(inner.end, ==, 15);
+    inner = fr_span_inside(outer, 8, SIZE_MAX);
+    g_assert_cmpuint(inner.begin, ==, 18);
+    g_assert_cmpuint(inner.end, ==, 20);
+    inner = fr_span_inside(outer, SIZE_MAX, 3);
+    g_assert_cmpuint(inner.begin, ==, 20);
+    g_assert_cmpuint(inner.end, ==, 20);
+}
+
+static void check_refused(const char *path, uint64_t max_bytes, FrStatus expected,
+                          const char *code) {
+    FrDiags *diags = fr_diags_new();
+    FrStatus status = FR_OK;
+    g_assert_null(fr_source_load(path, max_bytes, diags, &status));
+    g_assert_cmpint(status, ==, expected);
+    g_assert_cmpuint(fr_diags_count(diags), ==, 1);
+    g_assert_cmpstr(fr_diags_get(diags, 0)->code, ==, code);
+    g_assert_nonnull(strstr(fr_diags_get(diags, 0)->text, path));
+    fr_diags_free(diags);
+}
+
+typedef struct Folder {
+    char *path, *file;
+} Folder;
+
+static Folder make_folder(void) {
+    Folder folder = {.path = g_dir_make_tmp("frond-source-XXXXXX", NULL)};
+    folder.file = g_build_filename(folder.path, "file", NULL);
+    return folder;
+}
+
+static void remove_folder(Folder folder) {
+    g_remove(folder.file);
+    g_rmdir(folder.path);
+    g_free(folder.file);
+    g_free(folder.path);
+}
+
+static void test_load(void) {
+    Folder folder = make_folder();
+    g_assert_true(g_file_set_contents(folder.file, "a\0b\n", 4, NULL));
+    FrStatus status = FR_ERR_MACHINE;
+    FrSource *source = fr_source_load(folder.file, 4, NULL, &status);
+    g_assert_cmpint(status, ==, FR_OK);
+    size_t size;
+    const char *text = fr_source_text(source, &size);
+    g_assert_cmpuint(size, ==, 4);
+    g_assert_true(memcmp(text, "a\0b\n", 5) == 0);
+    g_assert_cmpstr(fr_source_name(source), ==, folder.file);
+    fr_source_unref(source);
+    remove_folder(folder);
+}
+
+static void test_too_big(void) {
+    Folder folder = make_folder();
+    g_assert_true(g_file_set_contents(folder.file, "12345", 5, NULL));
+    check_refused(folder.file, 4, FR_ERR_LIMIT, "limit-document_bytes");
+    remove_folder(folder);
+}
+
+static void test_not_a_file(void) {
+    Folder folder = make_folder();
+    check_refused(folder.file, 100, FR_ERR_DOCUMENT, "cannot-read");
+    check_refused(folder.path, 100, FR_ERR_DOCUMENT, "cannot-read");
+    g_assert_cmpint(mkfifo(folder.file, 0600), ==, 0);
+    check_refused(folder.file, 100, FR_ERR_DOCUMENT, "cannot-read"); // and does not wait for it
+    check_refused("/dev/zero", 100, FR_ERR_DOCUMENT, "cannot-read");
+    remove_folder(folder);
+}
+
+int main(int argc, char **argv) {
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/base/source/positions count lines and code points from one", test_positions);
+    g_test_add_func("/base/source/a source keeps its own copy", test_text_is_copied);
+    g_test_add_func("/base/source/an inner span stays inside", test_span_inside);
+    g_test_add_func("/base/source/a file is read whole, zero bytes too", test_load);
+    g_test_add_func("/base/source/a file over the limit is not read", test_too_big);
+    g_test_add_func("/base/source/what is no file is refused at once", test_not_a_file);
+    return g_test_run();
+}
