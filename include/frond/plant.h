@@ -201,6 +201,8 @@ FR_API uint32_t fr_plant_add_material(FrPlant *plant, FrMaterial *material);
 FR_API uint32_t fr_plant_add_component(FrPlant *plant, const char *id, FrSpan span);
 
 // ---- passes -----------------------------------------------------------------------------------
+// Straight loops over the columns. They see every row, marked FR_SHED or not (bounds excepted):
+// compact first to leave out what has fallen.
 
 /// Rebuilds position and frame of nodes first … count−1. One forward loop.
 FR_API void fr_plant_update_frames(FrPlant *plant, uint32_t first);
@@ -218,15 +220,17 @@ FR_API void fr_plant_weibel(const FrPlant *plant, uint32_t *order);
 /// Botanical (Gravelius) order: that of the axis.
 FR_API void fr_plant_botanical(const FrPlant *plant, uint32_t *order);
 /// Radii by the pipe model (Shinozaki 1964; Murray 1926 for exponent 3): r^e is the sum of the
-/// children's r^e, tips have `tip_radius`. Sets node radii and base radii. exponent in [1, 4].
+/// children's r^e, tips have `tip_radius`. Sets node radii and, to the radius of their first node,
+/// the base radii of axes. exponent in [1, 4].
 FR_API void fr_plant_pipe_radii(FrPlant *plant, double exponent, double tip_radius);
-/// Removes what is marked FR_SHED and everything borne by it; order is kept.
+/// Removes what is marked FR_SHED and everything borne by it: with an internode go the rest of its
+/// axis and its branches, organs and buds. The order of what stays is kept.
 FR_API void fr_plant_compact(FrPlant *plant);
-/// Smallest box around node tips, axis origins and organ positions (not their shapes).
-/// min > max for an empty plant.
+/// Smallest box around node tips, axis origins and organ positions (not their shapes) of what is
+/// neither shed nor hidden. min > max for an empty plant. Reads the cache.
 FR_API void fr_plant_bounds(const FrPlant *plant, vec3s *min, vec3s *max);
 
-/// Digest of everything that is truth: all columns but the cache, shapes, profiles.
+/// Digest of everything that is truth: all columns but the cache, shapes, profiles, deformers.
 FR_API FrDigest fr_plant_digest(const FrPlant *plant);
 /// Bytes allocated for all columns.
 FR_API uint64_t fr_plant_bytes(const FrPlant *plant);

@@ -83,6 +83,9 @@ uint32_t fr_columns_append(void *table, const FrColumns *columns, uint32_t count
     FrTableHead *head = head_of(table);
     uint32_t first = head->count;
     FR_ASSERT(count < FR_NONE - first); // FR_NONE stays free to mean "none"
+    if (count == 0) {
+        return first;
+    }
     uint32_t wanted = first + count;
     if (wanted > head->capacity) {
         // Appended one by one, rows double the table; appended at once, they get what they need.

@@ -3,14 +3,18 @@
 // two straight loops.
 #include "frond/plant.h"
 
-#include <string.h>
-
 // While a loop runs, the top bit of a node's entry holds one yes or no about its children.
 #define FR_MARK UINT32_C(0x80000000)
 
+static void clear(uint32_t *order, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        order[i] = 0;
+    }
+}
+
 void fr_plant_strahler(const FrPlant *plant, uint32_t *order) {
     const uint32_t *parent = plant->nodes.parent;
-    memset(order, 0, (size_t)plant->nodes.count * sizeof *order);
+    clear(order, plant->nodes.count);
     // An entry holds the largest order among the children seen, marked if two of them have it.
     for (uint32_t i = plant->nodes.count; i-- > 0;) {
         uint32_t own = (order[i] & ~FR_MARK) + (order[i] >> 31);
@@ -30,7 +34,7 @@ void fr_plant_strahler(const FrPlant *plant, uint32_t *order) {
 void fr_plant_weibel(const FrPlant *plant, uint32_t *order) {
     const uint32_t *parent = plant->nodes.parent;
     uint32_t count = plant->nodes.count;
-    memset(order, 0, (size_t)count * sizeof *order);
+    clear(order, count);
     // First 1 for one child, marked for more: a fork.
     for (uint32_t i = 0; i < count; i++) {
         if (parent[i] != FR_NONE) {
