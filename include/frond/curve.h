@@ -18,7 +18,8 @@ typedef enum FrCurveKind {
 /// Immutable, reference counted.
 typedef struct FrCurve FrCurve;
 
-/// `points` are `count` ≥ 1 pairs (x, y) with strictly rising x, all finite. NULL otherwise.
+/// `points` are `count` ≥ 1 pairs (x, y) with strictly rising x, all finite and not so far apart
+/// that a slope or the area overflows. NULL otherwise.
 FR_API FrCurve *fr_curve_new(FrCurveKind kind, const double (*points)[2], size_t count);
 /// One of the built-in curves: "flat", "ramp", "fall", "bell", "dome", "s", and the crown shapes of
 /// Weber and Penn 1995 by their names ("conical", "spherical", "hemispherical", "cylindrical",
@@ -43,11 +44,14 @@ FR_API void fr_curve_point(const FrCurve *curve, size_t index, double point[2]);
 /// arc length. Immutable, reference counted.
 typedef struct FrPath FrPath;
 
+/// Points that repeat the one before are left out. NULL without points or if one is not
+/// finite or beyond 10¹² m.
 FR_API FrPath *fr_path_new(const vec3s *points, size_t count);
 FR_API FrPath *fr_path_ref(FrPath *path);
 FR_API void fr_path_unref(FrPath *path);
 FR_API double fr_path_length(const FrPath *path);
 /// Point and unit tangent at `distance` metres along the path (clamped to its ends).
+/// The tangent of a path of one point is up.
 FR_API void fr_path_at(const FrPath *path, double distance, vec3s *point, vec3s *tangent);
 
 /// Rotation-minimizing frames by double reflection (Wang, Jüttler, Zheng, Liu 2008): carries
