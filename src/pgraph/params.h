@@ -1,0 +1,220 @@
+/// @file params.h
+/// The parameters of every component, one row each (param.h).
+///
+/// All components share FR_BASIC_PARAMS; Horn and Tree share FR_STEM_PARAMS. The shared rows come
+/// first, so a parameter has the same index, and its field the same place, in every table.
+#pragma once
+
+#include "frond/param.h"
+
+/// What every component has: where it is moved to, when it is made, what it looks like.
+#define FR_BASIC_PARAMS(X)                                                                         \
+    X(SWITCH, enabled, "yes", 0, 1, "", "", "made at all; if not, all that follows is left out")   \
+    X(NUMBER, translate_x, "0", -10000, 10000, "m", "", "moved along its x axis, to the left")     \
+    X(NUMBER, translate_y, "0", -10000, 10000, "m", "", "moved along its y axis, to the up side")  \
+    X(NUMBER, translate_z, "0", -10000, 10000, "m", "", "moved along its z axis, forwards")        \
+    X(NUMBER, rotate_x, "0", -36000, 36000, "deg", "", "turned first about its x axis")            \
+    X(NUMBER, rotate_y, "0", -36000, 36000, "deg", "", "turned then about its y axis")             \
+    X(NUMBER, rotate_z, "0", -36000, 36000, "deg", "", "turned last about its z axis")             \
+    X(NUMBER, scale, "1", 0.000001, 1000000, "", "", "size of it and of all that follows")         \
+    X(INTEGER, seed, "0", 0, 4294967295.0, "", "", "another seed rolls its random numbers anew")   \
+    X(INTEGER, depth, "0", 0, 1000000, "", "",                                                     \
+      "how often it may follow upon itself in a recursion; 0: no limit of its own")                \
+    X(NUMBER, recursion_scale, "1", 0.000001, 1000, "", "",                                        \
+      "scale of each further generation of a recursion")                                           \
+    X(NUMBER, recursion_angle, "0", -36000, 36000, "deg", "",                                      \
+      "turn about its x axis of each further generation of a recursion")                           \
+    X(TEXT, only, "all", 0, 0, "", "",                                                             \
+      "iterations it is made for: all, odd, even, first, last, 2,13, !2,13, 0..4, %3=1")           \
+    X(TEXT, material, "", 0, 0, "", "", "id of the material; empty: as what it grows on")
+
+/// The stem of Horn and Tree.
+#define FR_STEM_PARAMS(X)                                                                          \
+    X(CHOICE, course, "grown", 0, 0, "", "grown path steps",                                       \
+      "how it runs: by curvature, gnarl and tropisms, along path, or step by step")                \
+    X(NUMBER, length, "1", 0, 1000, "m", "", "length of the stem, or part of its parent's")        \
+    X(CHOICE, length_mode, "absolute", 0, 0, "", "absolute of-parent",                             \
+      "length in metres, or relative to the parent stem's")                                        \
+    X(NUMBER, radius, "0.02", 0, 100, "m", "", "radius at the base, or part of the parent's")      \
+    X(CHOICE, radius_mode, "absolute", 0, 0, "", "absolute of-parent",                             \
+      "radius in metres, or relative to the parent stem's where it is attached")                   \
+    X(NUMBER, taper, "0.8", 0, 1, "", "", "how much thinner the tip is: 0 not, 1 a point")         \
+    X(CURVE, profile, "", 0, 0, "", "", "radius along the stem, in radii; instead of taper")       \
+    X(NUMBER, min_radius, "0.0005", 0, 100, "m", "", "never thinner than this")                    \
+    X(NUMBER, flatness, "1", 0.001, 1000, "", "", "thickness along y over that along x")           \
+    X(POINTS, section, "", 0, 0, "", "", "cross-section of radius 1; empty: a circle")             \
+    X(CHOICE, primitive, "tube", 0, 0, "",                                                         \
+      "tube area box sphere cone cylinder torus square circle triangle none",                      \
+      "a closed tube, an open area, or a string of objects")                                       \
+    X(INTEGER, detail, "12", 3, 128, "", "", "segments around an object of a string")              \
+    X(CHOICE, tip, "pointed", 0, 0, "", "pointed flat", "end of the stem")                         \
+    X(INTEGER, segments, "0", 0, 1000, "", "", "internodes, objects of a string; 0: as needed")    \
+    X(NUMBER, curvature, "0", -3600, 3600, "deg", "",                                              \
+      "turn from base to tip, towards its y axis: up on a branch")                                 \
+    X(CURVE, curvature_curve, "", 0, 0, "", "", "multiplies the curvature along the stem")         \
+    X(NUMBER, twist, "0", -36000, 36000, "deg", "", "turn about itself from base to tip")          \
+    X(NUMBER, deviation, "0", 0, 90, "deg", "", "turn away from each branch: zigzag")              \
+    X(NUMBER, gnarl, "0", 0, 180, "deg", "", "how far it wanders to the sides")                    \
+    X(NUMBER, gnarl_frequency, "3", 0, 100, "", "", "how often it wanders over its length")        \
+    X(NUMBER, gravitropism, "0", -20, 20, "", "", "turns down; weeping; negative: away")           \
+    X(NUMBER, phototropism, "0", -20, 20, "", "", "turns up to the light; negative: away")         \
+    X(NUMBER, plagiotropism, "0", -20, 20, "", "", "turns to the horizontal; negative: away")      \
+    X(TEXT, path, "", 0, 0, "", "", "points x,y,z x,y,z of the curve for course=path, in m")       \
+    X(INTEGER, steps, "4", 1, 100000, "", "", "cross-sections or objects for course=steps")        \
+    X(VECTOR, step_translate, "0, 0, 0.1", -1000, 1000, "m", "", "moved by in each step")          \
+    X(NUMBER, step_rotate_x, "0", -3600, 3600, "deg", "", "turned about x in each step")           \
+    X(NUMBER, step_rotate_y, "0", -3600, 3600, "deg", "", "turned about y in each step")           \
+    X(NUMBER, step_rotate_z, "0", -3600, 3600, "deg", "", "turned about z in each step")           \
+    X(NUMBER, step_scale, "1", 0.001, 1000, "", "", "size relative to the step before")
+
+/// How a Tree places its branches. From azimuth on, evaluated for each branch.
+#define FR_BRANCHING_PARAMS(X)                                                                     \
+    X(CHOICE, mode, "number", 0, 0, "", "number density internode", "what counts the branches")    \
+    X(NUMBER, number, "10", 0, 1000000, "", "", "branches")                                        \
+    X(NUMBER, density, "10", 0, 100000, "1/m", "", "branches per metre of stem")                   \
+    X(NUMBER, internode, "0.1", 0.00001, 1000, "m", "", "stem between two places")                 \
+    X(NUMBER, start, "0.2", 0, 1, "", "", "where along the stem branches begin")                   \
+    X(NUMBER, end, "1", 0, 1, "", "", "where along the stem branches end")                         \
+    X(CHOICE, spacing, "middle", 0, 0, "", "middle ends",                                          \
+      "half a gap free at start and end, or branches exactly there")                               \
+    X(CURVE, density_curve, "", 0, 0, "", "", "relative density along the stem")                   \
+    X(NUMBER, regularity, "1", 0, 1, "", "", "1 evenly spaced, 0 at random within each gap")       \
+    X(INTEGER, whorl, "1", 1, 64, "", "", "branches at each place")                                \
+    X(CHOICE, phyllotaxis, "spiral", 0, 0, "", "spiral distichous decussate alternate custom",     \
+      "turn between places: 137.5, 180, 90 in pairs, 144, or azimuth-step")                        \
+    X(NUMBER, azimuth_step, "137.50776405", -3600, 3600, "deg", "", "turn for custom")             \
+    X(CHOICE, placement, "auto", 0, 0, "", "auto axis surface",                                    \
+      "where branches begin; auto: stems on the axis, organs on the surface")                      \
+    X(NUMBER, azimuth, "0", -36000, 36000, "deg", "", "turn of each about the stem")               \
+    X(NUMBER, azimuth_jitter, "0", 0, 180, "deg", "", "random turn about the stem")                \
+    X(NUMBER, branching_angle, "45", -180, 180, "deg", "", "angle between branch and stem")        \
+    X(NUMBER, roll, "0", -36000, 36000, "deg", "", "turn of the branch about itself")              \
+    X(NUMBER, child_scale, "1", 0.000001, 1000, "", "", "size of the branch")
+
+/// From phototropism on, evaluated for each leaf; the rest for each shape.
+#define FR_LEAF_PARAMS(X)                                                                          \
+    X(NUMBER, length, "0.1", 0.00001, 100, "m", "", "length of the blade")                         \
+    X(NUMBER, width, "0.05", 0.00001, 100, "m", "", "greatest width of the blade")                 \
+    X(NUMBER, petiole_length, "0.02", 0, 100, "m", "", "length of the petiole")                    \
+    X(NUMBER, petiole_radius, "0.001", 0, 10, "m", "", "radius of the petiole")                    \
+    X(NUMBER, petiole_bend, "0", -360, 360, "deg", "", "turn of the petiole, upwards")             \
+    X(CHOICE, outline, "elliptic", 0, 0, "",                                                       \
+      "elliptic ovate obovate lanceolate oblanceolate linear cordate orbicular rhombic "           \
+      "spatulate deltoid petal",                                                                   \
+      "form of the blade")                                                                         \
+    X(POINTS, outline_points, "", 0, 0, "", "",                                                    \
+      "own form: along 0-1, half width 0-0.5, base to tip; instead of outline")                    \
+    X(NUMBER, curvature_along, "0", -720, 720, "deg", "", "turn from base to tip, upwards")        \
+    X(CURVE, along_curve, "", 0, 0, "", "", "spreads curvature-along from base to tip")            \
+    X(NUMBER, curvature_across, "0", -720, 720, "deg", "", "turn from midrib to margin, upwards")  \
+    X(CURVE, across_curve, "", 0, 0, "", "", "spreads curvature-across from base to tip")          \
+    X(NUMBER, fold, "0", -180, 180, "deg", "", "angle each half is lifted about the midrib")       \
+    X(NUMBER, twist, "0", -720, 720, "deg", "", "turn about the midrib from base to tip")          \
+    X(NUMBER, wave, "0", 0, 1, "", "", "height of the waves of the margin, of the width")          \
+    X(NUMBER, waves, "3", 0, 100, "", "", "waves along the margin")                                \
+    X(INTEGER, segments_along, "6", 1, 64, "", "", "segments from base to tip")                    \
+    X(INTEGER, segments_across, "2", 1, 32, "", "", "segments of each half")                       \
+    X(INTEGER, variants, "8", 1, 256, "", "", "shapes its random numbers choose from")             \
+    X(NUMBER, phototropism, "0", 0, 1, "", "", "turns its upper face to the light: 1 fully")       \
+    X(NUMBER, gravitropism, "0", -1, 1, "", "", "hangs down: 1 fully; negative: stands up")
+
+/// From child_scale on, evaluated for each child.
+#define FR_PHIBALL_PARAMS(X)                                                                       \
+    X(NUMBER, number, "100", 0, 1000000, "", "", "children")                                       \
+    X(CHOICE, radius_mode, "absolute", 0, 0, "", "absolute by-area touching",                      \
+      "radius given, or such that children of child-area, or child-radius, just fit")              \
+    X(NUMBER, radius, "0.1", 0, 10000, "m", "", "radius of the sphere")                            \
+    X(NUMBER, child_area, "0.0001", 0, 10000, "m2", "", "area of a child, for by-area")            \
+    X(NUMBER, child_radius, "0.005", 0, 10000, "m", "", "radius of a child, for touching")         \
+    X(NUMBER, opening, "0", 0, 180, "deg", "", "polar angle where the section begins")             \
+    X(NUMBER, closing, "180", 0, 180, "deg", "", "polar angle where the section ends")             \
+    X(NUMBER, divergence, "222.49223594996", -3600, 3600, "deg", "", "turn between children")      \
+    X(CHOICE, handedness, "left", 0, 0, "", "left right", "sense of the turn; right mirrors")      \
+    X(CHOICE, placement, "midpoint", 0, 0, "", "midpoint end",                                     \
+      "child in the middle of its zone, or at its end")                                            \
+    X(NUMBER, influence, "0", 0, 1, "", "", "how much larger children take more room")             \
+    X(CHOICE, anchor, "centre", 0, 0, "", "centre pole", "what sits where it is attached")         \
+    X(NUMBER, child_scale, "1", 0.000001, 1000, "", "", "size of each child")                      \
+    X(NUMBER, tilt, "0", -360, 360, "deg", "", "turn of each away from the axis")                  \
+    X(NUMBER, roll, "0", -36000, 36000, "deg", "", "turn of each about itself")                    \
+    X(NUMBER, push, "0", -10000, 10000, "m", "", "how far each stands off the sphere")
+
+#define FR_SIMPLE_PARAMS(X)                                                                        \
+    X(CHOICE, primitive, "box", 0, 0, "",                                                          \
+      "tube area box sphere cone cylinder torus square circle triangle none",                      \
+      "a solid, or one cross-section of a tube or area joined with the next")                      \
+    X(VECTOR, size, "0.1, 0.1, 0.1", 0, 10000, "m", "", "extent along x, y, z")                    \
+    X(INTEGER, detail, "12", 3, 128, "", "", "segments around")                                    \
+    X(POINTS, section, "", 0, 0, "", "", "cross-section of radius 1; empty: a circle")
+
+typedef struct FrBasicParams {
+    FR_BASIC_PARAMS(FR_PARAM_FIELD)
+} FrBasicParams;
+
+typedef struct FrSimpleParams {
+    FR_BASIC_PARAMS(FR_PARAM_FIELD)
+    FR_SIMPLE_PARAMS(FR_PARAM_FIELD)
+} FrSimpleParams;
+
+typedef struct FrStemParams {
+    FR_BASIC_PARAMS(FR_PARAM_FIELD)
+    FR_STEM_PARAMS(FR_PARAM_FIELD)
+} FrStemParams;
+
+typedef struct FrTreeParams {
+    FR_BASIC_PARAMS(FR_PARAM_FIELD)
+    FR_STEM_PARAMS(FR_PARAM_FIELD)
+    FR_BRANCHING_PARAMS(FR_PARAM_FIELD)
+} FrTreeParams;
+
+typedef struct FrLeafParams {
+    FR_BASIC_PARAMS(FR_PARAM_FIELD)
+    FR_LEAF_PARAMS(FR_PARAM_FIELD)
+} FrLeafParams;
+
+typedef struct FrPhiballParams {
+    FR_BASIC_PARAMS(FR_PARAM_FIELD)
+    FR_PHIBALL_PARAMS(FR_PARAM_FIELD)
+} FrPhiballParams;
+
+/// Index of each row in its table: the purpose of its random draws.
+#define FR_BASIC_ID(kind, field, ...) FR_BASIC_##field,
+#define FR_STEM_ID(kind, field, ...) FR_STEM_##field,
+#define FR_TREE_ID(kind, field, ...) FR_TREE_##field,
+#define FR_LEAF_ID(kind, field, ...) FR_LEAF_##field,
+#define FR_PHIBALL_ID(kind, field, ...) FR_PHIBALL_##field,
+enum { FR_BASIC_PARAMS(FR_BASIC_ID) FR_BASIC_COUNT };
+enum { FR_STEM_BEFORE = FR_BASIC_COUNT - 1, FR_STEM_PARAMS(FR_STEM_ID) FR_STEM_COUNT };
+enum { FR_TREE_BEFORE = FR_STEM_COUNT - 1, FR_BRANCHING_PARAMS(FR_TREE_ID) FR_TREE_COUNT };
+enum { FR_LEAF_BEFORE = FR_BASIC_COUNT - 1, FR_LEAF_PARAMS(FR_LEAF_ID) FR_LEAF_COUNT };
+enum { FR_PHIBALL_BEFORE = FR_BASIC_COUNT - 1, FR_PHIBALL_PARAMS(FR_PHIBALL_ID) FR_PHIBALL_COUNT };
+#undef FR_BASIC_ID
+#undef FR_STEM_ID
+#undef FR_TREE_ID
+#undef FR_LEAF_ID
+#undef FR_PHIBALL_ID
+
+// The values of the CHOICE rows, in their order.
+enum { FR_COURSE_GROWN, FR_COURSE_PATH, FR_COURSE_STEPS };
+enum { FR_SIZE_ABSOLUTE, FR_SIZE_OF_PARENT };
+enum {
+    FR_PRIMITIVE_TUBE,
+    FR_PRIMITIVE_AREA,
+    FR_PRIMITIVE_FIRST_SHAPE, ///< box; from here on in the order of FrShapeKind
+    FR_PRIMITIVE_NONE = 10,
+};
+enum { FR_TIP_POINTED, FR_TIP_FLAT };
+enum { FR_BRANCHES_BY_NUMBER, FR_BRANCHES_BY_DENSITY, FR_BRANCHES_BY_INTERNODE };
+enum { FR_SPACING_MIDDLE, FR_SPACING_ENDS };
+enum {
+    FR_PHYLLOTAXIS_SPIRAL,
+    FR_PHYLLOTAXIS_DISTICHOUS,
+    FR_PHYLLOTAXIS_DECUSSATE,
+    FR_PHYLLOTAXIS_ALTERNATE,
+    FR_PHYLLOTAXIS_CUSTOM
+};
+enum { FR_PLACE_AUTO, FR_PLACE_ON_AXIS, FR_PLACE_ON_SURFACE };
+enum { FR_RADIUS_ABSOLUTE, FR_RADIUS_BY_AREA, FR_RADIUS_TOUCHING };
+enum { FR_HAND_LEFT, FR_HAND_RIGHT };
+enum { FR_PLACEMENT_MIDPOINT, FR_PLACEMENT_END };
+enum { FR_ANCHOR_CENTRE, FR_ANCHOR_POLE };

@@ -1,0 +1,46 @@
+#include "pgraph/params.h"
+
+#include "frond/pgraph.h"
+
+#define FR_PARAM_STRUCT FrBasicParams
+static const FrParam camera_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrSimpleParams
+static const FrParam simple_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_SIMPLE_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrStemParams
+static const FrParam horn_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_STEM_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrTreeParams
+static const FrParam tree_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_STEM_PARAMS(FR_PARAM_ROW)
+                                        FR_BRANCHING_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrLeafParams
+static const FrParam leaf_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_LEAF_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrPhiballParams
+static const FrParam phiball_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW)
+                                           FR_PHIBALL_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+
+#define TABLE(name, kind, type, text)                                                              \
+    [FR_COMPONENT_##kind] = {.element = #name,                                                     \
+                             .meaning = text,                                                      \
+                             .rows = name##_rows,                                                  \
+                             .count = sizeof name##_rows / sizeof name##_rows[0],                  \
+                             .struct_size = sizeof(type)}
+
+static const FrParamTable tables[FR_COMPONENT_COUNT] = {
+    TABLE(camera, CAMERA, FrBasicParams, "the root of a plant's components"),
+    TABLE(simple, SIMPLE, FrSimpleParams, "a solid, or one cross-section of a tube or area"),
+    TABLE(horn, HORN, FrStemParams, "a stem, or a string of objects"),
+    TABLE(tree, TREE, FrTreeParams, "a stem that multiplies its branch links along itself"),
+    TABLE(leaf, LEAF, FrLeafParams, "a leaf, petal or sepal"),
+    TABLE(phiball, PHIBALL, FrPhiballParams,
+          "multiplies what follows, spread over a sphere by the golden section"),
+};
+
+const FrParamTable *fr_pgraph_table(FrComponentKind kind) {
+    FR_ASSERT(kind < FR_COMPONENT_COUNT);
+    return &tables[kind];
+}
