@@ -1,0 +1,51 @@
+/// `<material>`: its picture files must be there, named relative to the document.
+#include "document/reader.h"
+
+static void check_file(FrReader *reader, uint32_t node, const char *attribute, const char *file) {
+    if (file == NULL) {
+        return;
+    }
+    FrXmlRange place = fr_read_value_place(reader, node, attribute);
+    if (g_path_is_absolute(file)) {
+        fr_read_error(reader, "absolute-path", place,
+                      "files are named relative to the document, not '%s'", file);
+        return;
+    }
+    char *path = g_build_filename(reader->document->folder, file, NULL);
+    if (!g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
+        fr_read_error(reader, "missing-file", place, "there is no file '%s'", path);
+    }
+    g_free(path);
+}
+
+static void read_material(FrReader *reader, uint32_t node, const char *id) {
+    const FrParamTable *table = fr_material_table();
+    FrMaterialParams params;
+    fr_params_init(table, &params);
+    fr_read_attributes(reader, node, FR_ELEMENT_MATERIAL, &params);
+    check_file(reader, node, "picture", params.picture);
+    check_file(reader, node, "normal-map", params.normal_map);
+    check_file(reader, node, "roughness-map", params.roughness_map);
+    if (g_hash_table_contains(reader->material_ids, id)) {
+        fr_read_error(reader, "duplicate-id", fr_read_value_place(reader, node, "id"),
+                      "there is a material '%s' already", id);
+    } else {
+        FrSpan span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
+        FrMaterial *material = fr_material_new(id, &params, reader->document->folder, span);
+        g_ptr_array_add(reader->document->materials, material);
+        g_hash_table_insert(reader->material_ids, g_strdup(id), material);
+    }
+    fr_params_clear(table, &params);
+}
+
+void fr_read_materials(FrReader *reader, uint32_t parent) {
+    for (uint32_t node = fr_read_first(reader, parent, FR_ELEMENT_MATERIAL); node != FR_NONE;
+         node = fr_read_next(reader, node, FR_ELEMENT_MATERIAL)) {
+        fr_read_check_children(reader, node, FR_ELEMENT_MATERIAL);
+        char *id = fr_read_id(reader, node);
+        if (id != NULL) {
+            read_material(reader, node, id);
+        }
+        g_free(id);
+    }
+}

@@ -1,0 +1,124 @@
+/// `<pgraph>`: components by their element's name, and the links between them.
+#include "document/reader.h"
+
+typedef struct GraphReader {
+    FrReader *reader;
+    FrPgraph *graph;
+    GHashTable *components; ///< id → index + 1
+    GHashTable *materials;  ///< set of the FrMaterial * that the graph knows
+} GraphReader;
+
+/// Hands the graph the materials that a component names; it reports those that do not exist.
+static void add_materials(GraphReader *graph, const FrParamTable *table, const void *params) {
+    for (size_t i = 0; i < table->count; i++) {
+        const FrParam *row = &table->rows[i];
+        if (row->kind != FR_PARAM_TEXT || !g_str_has_suffix(row->name, "material")) {
+            continue;
+        }
+        const char *id = *(char *const *)(const void *)((const char *)params + row->offset);
+        FrMaterial *material =
+            id == NULL ? NULL : g_hash_table_lookup(graph->reader->material_ids, id);
+        if (material != NULL && g_hash_table_add(graph->materials, material)) {
+            fr_pgraph_add_material(graph->graph, material);
+        }
+    }
+}
+
+static void read_component(GraphReader *graph, uint32_t node, FrElementId element) {
+    FrReader *reader = graph->reader;
+    fr_read_check_children(reader, node, element);
+    char *id = fr_read_id(reader, node);
+    if (id == NULL) {
+        return;
+    }
+    FrSpan span = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "id"));
+    uint32_t component = fr_pgraph_add(
+        graph->graph, (FrComponentKind)(element - FR_ELEMENT_COMPONENT), id, span, reader->diags);
+    if (component == FR_NONE) {
+        g_free(id);
+        fr_read_note(reader, FR_ERR_DOCUMENT);
+        return;
+    }
+    g_hash_table_insert(graph->components, id, GUINT_TO_POINTER(component + 1));
+    void *params = fr_pgraph_params(graph->graph, component);
+    fr_read_attributes(reader, node, element, params);
+    add_materials(graph, fr_element(element).table, params);
+}
+
+/// The component an attribute of a link names, FR_NONE with an error.
+static uint32_t find_component(GraphReader *graph, uint32_t node, const char *attribute,
+                               const char *id) {
+    if (id == NULL) {
+        return FR_NONE; // reported as missing
+    }
+    uint32_t found = GPOINTER_TO_UINT(g_hash_table_lookup(graph->components, id));
+    if (found != 0) {
+        return found - 1;
+    }
+    uint32_t count = fr_pgraph_count(graph->graph);
+    const char **names = g_new(const char *, count + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        names[i] = fr_pgraph_id(graph->graph, i);
+    }
+    char *hint = fr_read_hint(graph->reader, id, names, count);
+    fr_read_error(graph->reader, "unknown-component",
+                  fr_read_value_place(graph->reader, node, attribute),
+                  "there is no component '%.64s' in this graph%s", id, hint);
+    g_free(hint);
+    g_free(names);
+    return FR_NONE;
+}
+
+static void read_link(GraphReader *graph, uint32_t node) {
+    FrReader *reader = graph->reader;
+    fr_read_check_children(reader, node, FR_ELEMENT_LINK);
+    const FrParamTable *table = fr_element(FR_ELEMENT_LINK).table;
+    FrLinkParams params;
+    fr_params_init(table, &params);
+    fr_read_attributes(reader, node, FR_ELEMENT_LINK, &params);
+    uint32_t from = find_component(graph, node, "from", params.from);
+    uint32_t to = find_component(graph, node, "to", params.to);
+    if (from != FR_NONE && to != FR_NONE) {
+        FrSpan span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
+        fr_read_note(reader, fr_pgraph_link(graph->graph, from, to, (FrLinkKind)params.kind, span,
+                                            reader->diags));
+    }
+    fr_params_clear(table, &params);
+}
+
+static void read_parts(GraphReader *graph, uint32_t parent) {
+    const FrXmlTree *tree = graph->reader->tree;
+    for (uint32_t node = fr_xml_element_from(tree, tree->nodes[parent].first); node != FR_NONE;
+         node = fr_xml_element_from(tree, tree->nodes[node].next)) {
+        char *name = fr_xml_name(tree, tree->nodes[node].name);
+        FrElementId element = fr_element_find(name);
+        g_free(name);
+        if (element >= FR_ELEMENT_COMPONENT && element < FR_ELEMENT_COUNT) {
+            read_component(graph, node, element);
+        }
+    }
+    for (uint32_t node = fr_read_first(graph->reader, parent, FR_ELEMENT_LINK); node != FR_NONE;
+         node = fr_read_next(graph->reader, node, FR_ELEMENT_LINK)) {
+        read_link(graph, node);
+    }
+}
+
+void fr_read_pgraph(FrReader *reader, uint32_t node, FrPgraph *definition) {
+    GraphReader graph = {
+        .reader = reader,
+        .graph = definition,
+        .components = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
+        .materials = g_hash_table_new(NULL, NULL),
+    };
+    FrStatus before = reader->status;
+    reader->status = FR_OK;
+    fr_read_check_children(reader, node, FR_ELEMENT_PGRAPH);
+    read_parts(&graph, node);
+    // What is wrong as a whole may only follow from what was reported already.
+    if (reader->status == FR_OK) {
+        fr_read_note(reader, fr_pgraph_check(definition, reader->diags));
+    }
+    fr_read_note(reader, before);
+    g_hash_table_unref(graph.components);
+    g_hash_table_unref(graph.materials);
+}

@@ -1,0 +1,59 @@
+/// @file reader.h
+/// What the readers of the sections share. A reader never stops at an error: it notes it and goes
+/// on, so that one run reports many.
+#pragma once
+
+#include "document/format.h"
+#include "document/tree.h"
+
+struct FrDocument {
+    FrXmlTree *tree;
+    char *folder;
+    GPtrArray *plants, *places, *views, *materials;
+    FrSceneParams scene;
+    FrScope *scope;
+};
+
+typedef struct FrReader {
+    FrDocument *document;
+    const FrXmlTree *tree;
+    const FrContext *context;
+    FrDiags *diags;
+    FrStatus status;          ///< the worst so far
+    GHashTable *material_ids; ///< id → FrMaterial *
+    GHashTable *plant_ids;    ///< id → FrPlantDef *
+    uint32_t hints;           ///< names suggested so far
+} FrReader;
+
+/// Reads all sections of document->tree into the document.
+FR_MUST_USE FrStatus fr_document_read(FrDocument *document, const FrContext *context);
+
+/// Each reads the children of `parent` that belong to its section.
+void fr_read_curves(FrReader *reader, uint32_t parent);
+void fr_read_materials(FrReader *reader, uint32_t parent);
+void fr_read_plants(FrReader *reader, uint32_t parent);
+void fr_read_pgraph(FrReader *reader, uint32_t node, FrPgraph *graph);
+void fr_read_scenes(FrReader *reader, uint32_t parent);
+
+void fr_read_note(FrReader *reader, FrStatus status);
+/// An error at a place of the text.
+void fr_read_error(FrReader *reader, const char *code, FrXmlRange place, const char *format, ...)
+    FR_PRINTF(4, 5);
+
+/// The first child of `parent` that is such an element, FR_NONE.
+uint32_t fr_read_first(const FrReader *reader, uint32_t parent, FrElementId id);
+/// The next such sibling after `node`, FR_NONE.
+uint32_t fr_read_next(const FrReader *reader, uint32_t node, FrElementId id);
+/// Reports children that do not belong in such an element, text where there is none, and repeated
+/// elements that may stand once.
+void fr_read_check_children(FrReader *reader, uint32_t node, FrElementId id);
+/// Sets the attributes of `node` in `object`, which fr_params_init() has filled; reports unknown,
+/// wrong and missing ones.
+void fr_read_attributes(FrReader *reader, uint32_t node, FrElementId id, void *object);
+/// The element's id, to be freed with g_free(); NULL with an error if it is missing or wrong.
+char *fr_read_id(FrReader *reader, uint32_t node);
+/// The place of an attribute's value, else that of the element's name.
+FrXmlRange fr_read_value_place(const FrReader *reader, uint32_t node, const char *attribute);
+/// "; did you mean 'x'?" or "". Free with g_free(). Looks among some candidates and for some errors
+/// only: a document may hold 100 000 misspelt names of 100 000.
+char *fr_read_hint(FrReader *reader, const char *name, const char *const *candidates, size_t count);

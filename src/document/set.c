@@ -1,0 +1,251 @@
+/// `--set`: one attribute's bytes are replaced, everything else stays as the user wrote it.
+#include "document/reader.h"
+
+#include <string.h>
+
+enum { LISTED_PATHS = 12 };
+
+/// An element that a path may name, with the names to reach it by.
+typedef struct Target {
+    uint32_t node;
+    FrElementId element;
+    char *name;  ///< its id or name; "scene" for the scene
+    char *plant; ///< id of the plant around it, NULL
+} Target;
+
+static void clear_target(void *data) {
+    Target *target = data;
+    g_free(target->name);
+    g_free(target->plant);
+}
+
+/// What a path calls an element, or NULL.
+static char *name_of(const FrXmlTree *tree, uint32_t node, FrElementId element) {
+    if (element == FR_ELEMENT_SCENE) {
+        return g_strdup("scene");
+    }
+    const FrXmlAttribute *attribute =
+        fr_xml_attribute(tree, node, element == FR_ELEMENT_VIEW ? "name" : "id");
+    return attribute == NULL ? NULL : fr_xml_decode(tree, attribute->value, true);
+}
+
+static GArray *collect_targets(const FrXmlTree *tree) {
+    GArray *targets = g_array_new(FALSE, FALSE, sizeof(Target));
+    g_array_set_clear_func(targets, clear_target);
+    char *plant = NULL;
+    uint32_t plant_end = 0;
+    for (uint32_t node = 0; node < tree->node_count; node++) {
+        const FrXmlNode *at = &tree->nodes[node];
+        if (at->kind != FR_XML_ELEMENT) {
+            continue;
+        }
+        char *tag = fr_xml_name(tree, at->name);
+        FrElementId element = fr_element_find(tag);
+        g_free(tag);
+        char *name = element == FR_ELEMENT_COUNT ? NULL : name_of(tree, node, element);
+        if (name == NULL) {
+            continue;
+        }
+        bool is_within = plant != NULL && at->all.begin < plant_end;
+        Target target = {node, element, name, is_within ? g_strdup(plant) : NULL};
+        g_array_append_val(targets, target);
+        if (element == FR_ELEMENT_PLANT) {
+            g_free(plant);
+            plant = g_strdup(name);
+            plant_end = at->all.end;
+        }
+    }
+    g_free(plant);
+    return targets;
+}
+
+static bool matches(const Target *target, const char *plant, const char *name) {
+    return strcmp(target->name, name) == 0 &&
+           (plant == NULL || (target->plant != NULL && strcmp(target->plant, plant) == 0));
+}
+
+/// `plant.component` or `component` for messages.
+static char *path_of(const Target *target) {
+    return target->plant == NULL ? g_strdup(target->name)
+                                 : g_strdup_printf("%s.%s", target->plant, target->name);
+}
+
+static void report_unknown(const GArray *targets, const char *name, FrDiags *diags) {
+    GPtrArray *names = g_ptr_array_new();
+    GString *listed = g_string_new(NULL);
+    for (guint i = 0; i < targets->len; i++) {
+        const Target *target = &g_array_index(targets, Target, i);
+        g_ptr_array_add(names, target->name);
+        if (i < LISTED_PATHS) {
+            g_string_append_printf(listed, "%s%s", i == 0 ? "" : ", ", target->name);
+        }
+    }
+    g_string_append(listed, targets->len > LISTED_PATHS ? ", …" : "");
+    const char *near = fr_nearest_name(name, (const char *const *)names->pdata, names->len);
+    if (near != NULL) {
+        fr_diags_add(diags, FR_ERROR, "unknown-path", (FrSpan){0},
+                     "nothing is called '%.64s'; did you mean '%s'?", name, near);
+    } else {
+        fr_diags_add(diags, FR_ERROR, "unknown-path", (FrSpan){0},
+                     "nothing is called '%.64s'; there are: %s", name, listed->str);
+    }
+    g_string_free(listed, TRUE);
+    g_ptr_array_unref(names);
+}
+
+/// The one element that `plant` (may be NULL) and `name` mean.
+static const Target *find_target(const GArray *targets, const char *plant, const char *name,
+                                 FrDiags *diags) {
+    const Target *found = NULL;
+    for (guint i = 0; i < targets->len; i++) {
+        const Target *target = &g_array_index(targets, Target, i);
+        if (!matches(target, plant, name)) {
+            continue;
+        }
+        if (found != NULL) {
+            char *first = path_of(found), *second = path_of(target);
+            fr_diags_add(diags, FR_ERROR, "ambiguous-path", (FrSpan){0},
+                         "more than one thing is called '%s': '%s' and '%s'", name, first, second);
+            g_free(first);
+            g_free(second);
+            return NULL;
+        }
+        found = target;
+    }
+    if (found == NULL) {
+        report_unknown(targets, name, diags);
+    }
+    return found;
+}
+
+/// The attribute's name as documents write it, or NULL with an error. Free with g_free().
+static char *find_attribute_name(const Target *target, const char *name, FrDiags *diags) {
+    FrElement element = fr_element(target->element);
+    const FrParam *row = element.table == NULL ? NULL : fr_params_find(element.table, name);
+    if (row != NULL) {
+        return fr_param_attribute(row);
+    }
+    char *near = element.table == NULL ? NULL : fr_params_suggest(element.table, name);
+    if (near != NULL) {
+        fr_diags_add(diags, FR_ERROR, "unknown-path", (FrSpan){0},
+                     "<%s> '%s' has no attribute '%.64s'; did you mean '%s'?", element.name,
+                     target->name, name, near);
+    } else {
+        fr_diags_add(diags, FR_ERROR, "unknown-path", (FrSpan){0},
+                     "<%s> '%s' has no attribute '%.64s'", element.name, target->name, name);
+    }
+    g_free(near);
+    return NULL;
+}
+
+static void append_escaped(GString *out, const char *value, char quote) {
+    for (const char *at = value; *at != '\0'; at++) {
+        if (*at == '&') {
+            g_string_append(out, "&amp;");
+        } else if (*at == '<') {
+            g_string_append(out, "&lt;");
+        } else if (*at == quote) {
+            g_string_append(out, quote == '"' ? "&quot;" : "&apos;");
+        } else if (*at == '\t' || *at == '\n' || *at == '\r') {
+            g_string_append_printf(out, "&#%d;", *at);
+        } else {
+            g_string_append_c(out, *at);
+        }
+    }
+}
+
+/// The document's text with one attribute set; `range` receives where the value now is.
+static GString *edited_text(const FrXmlTree *tree, uint32_t node, const char *name,
+                            const char *value, FrXmlRange *range) {
+    size_t size;
+    const char *text = fr_source_text(tree->source, &size);
+    const FrXmlNode *element = &tree->nodes[node];
+    const FrXmlAttribute *old = fr_xml_attribute(tree, node, name);
+    GString *out = g_string_sized_new(size + strlen(value) + strlen(name) + 8);
+    size_t rest;
+    if (old != NULL) {
+        g_string_append_len(out, text, old->value.begin);
+        range->begin = (uint32_t)out->len;
+        append_escaped(out, value, text[old->value.end]);
+        range->end = (uint32_t)out->len;
+        rest = old->value.end;
+    } else {
+        uint32_t count = element->attribute_count;
+        rest = count == 0 ? element->name.end
+                          : tree->attributes[element->attribute + count - 1].value.end + 1;
+        g_string_append_len(out, text, (gssize)rest);
+        g_string_append_printf(out, " %s=\"", name);
+        range->begin = (uint32_t)out->len;
+        append_escaped(out, value, '"');
+        range->end = (uint32_t)out->len;
+        g_string_append_c(out, '"');
+    }
+    g_string_append_len(out, text + rest, (gssize)(size - rest));
+    return out;
+}
+
+/// Passes on what is new: all if the edit failed, else only what concerns the value itself.
+static void pass_on(const FrDiags *from, FrStatus status, FrXmlRange value, FrDiags *to) {
+    for (size_t i = 0; i < fr_diags_count(from); i++) {
+        const FrDiag *diag = fr_diags_get(from, i);
+        bool is_of_value = diag->span.begin >= value.begin && diag->span.begin <= value.end;
+        if (status != FR_OK || is_of_value) {
+            fr_diags_add(to, diag->severity, diag->code, diag->span, "%s", diag->text);
+        }
+    }
+}
+
+/// Reads the edited text and, if it is right, lets the document become it.
+static FrStatus replace_text(FrDocument *document, const GString *text, FrXmlRange value,
+                             const FrContext *context) {
+    FrSource *source = fr_source_new(fr_document_name(document), text->str, text->len);
+    FrContext inner = *context;
+    inner.diags = fr_diags_new();
+    FrDocument *edited;
+    FrStatus status = fr_document_parse(source, document->folder, &inner, &edited);
+    pass_on(inner.diags, status, value, context->diags);
+    if (status == FR_OK) {
+        FrDocument old = *document;
+        *document = *edited;
+        *edited = old;
+    }
+    fr_document_free(edited);
+    fr_diags_free(inner.diags);
+    fr_source_unref(source);
+    return status;
+}
+
+static FrStatus set_target(FrDocument *document, const Target *target, const char *attribute,
+                           const char *value, const FrContext *context) {
+    char *name = find_attribute_name(target, attribute, context->diags);
+    if (name == NULL) {
+        return FR_ERR_USAGE;
+    }
+    FrXmlRange range;
+    GString *text = edited_text(document->tree, target->node, name, value, &range);
+    FrStatus status = replace_text(document, text, range, context);
+    g_string_free(text, TRUE);
+    g_free(name);
+    return status;
+}
+
+FrStatus fr_document_set(FrDocument *document, const char *path, const char *value,
+                         const FrContext *context) {
+    char **parts = g_strsplit(path, ".", 4);
+    guint count = g_strv_length(parts);
+    FrStatus status = FR_ERR_USAGE;
+    if (count < 2 || count > 3 || !g_utf8_validate(value, -1, NULL)) {
+        fr_diags_add(context->diags, FR_ERROR, "bad-path", (FrSpan){0},
+                     "'%.64s' is not of the form id.attribute or plant.component.attribute", path);
+    } else {
+        GArray *targets = collect_targets(document->tree);
+        const Target *target =
+            find_target(targets, count == 3 ? parts[0] : NULL, parts[count - 2], context->diags);
+        if (target != NULL) {
+            status = set_target(document, target, parts[count - 1], value, context);
+        }
+        g_array_unref(targets);
+    }
+    g_strfreev(parts);
+    return status;
+}
