@@ -132,7 +132,7 @@ static const struct {
     PaintFn paint;
     bool is_tiled, has_alpha;
 } kinds[] = {
-    [FR_TEXTURE_NONE] = {NULL, false, false},
+    [FR_TEXTURE_LEAF] = {fr_texture_leaf, false, true},
 };
 
 FrStatus fr_texture_make(const FrMaterialParams *params, const char *name, FrSpan span,
