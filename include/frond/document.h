@@ -86,6 +86,15 @@ FR_API const FrParamTable *fr_scene_table(void);
 FR_API const FrParamTable *fr_view_table(void);
 
 FR_API const char *fr_document_name(const FrDocument *document);
+/// The first line of the first comment: what the document calls itself. NULL if it has none; free
+/// with g_free().
+FR_API char *fr_document_title(const FrDocument *document);
+/// The place of the root element's name, for what is wrong with the document as a whole.
+FR_API FrSpan fr_document_span(const FrDocument *document);
+/// A plant's definition once more, with another seed; to be freed with fr_pgraph_free(). The
+/// document must have been read without errors.
+FR_API FrPgraph *fr_document_reseed(const FrDocument *document, const FrPlantDef *plant,
+                                    uint64_t seed);
 FR_API const char *fr_document_folder(const FrDocument *document);
 /// Arrays of FrPlantDef *, FrPlace *, FrViewParams * and FrMaterial *, owned by the document.
 FR_API const GPtrArray *fr_document_plants(const FrDocument *document);

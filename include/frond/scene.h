@@ -29,11 +29,13 @@ typedef struct FrScene {
 } FrScene;
 
 /// Builds every plant that stands somewhere; a document without places shows its first plant at
-/// the origin. `seed` replaces the seeds of all plants unless it is negative. The document must
-/// outlive the scene.
+/// the origin. `seed` replaces the seeds of all plants unless it is negative; places that have a
+/// seed of their own then still differ, by a mix of both. Together the plants take at most
+/// FrLimits.bytes. The document must outlive the scene.
 FR_API FR_MUST_USE FrStatus fr_scene_build(const FrDocument *document, int64_t seed,
                                            const FrContext *context, FrScene **scene);
 FR_API void fr_scene_free(FrScene *scene);
 FR_API FrDigest fr_scene_digest(const FrScene *scene);
-/// The smallest box around everything, organs' shapes included roughly.
+/// The smallest box around everything, organs' shapes included roughly; min > max if nothing has
+/// an extent.
 FR_API void fr_scene_bounds(const FrScene *scene, double min[3], double max[3]);

@@ -1,6 +1,8 @@
 /// Life of a document: from a file to its definitions.
 #include "document/reader.h"
 
+#include <string.h>
+
 static void free_plant(void *data) {
     FrPlantDef *plant = data;
     fr_pgraph_free(plant->pgraph);
@@ -74,12 +76,8 @@ static bool check_version(FrReader *reader, uint32_t root) {
 }
 
 FrStatus fr_document_read(FrDocument *document, const FrContext *context) {
-    FrReader reader = {.document = document,
-                       .tree = document->tree,
-                       .context = context,
-                       .diags = context->diags,
-                       .material_ids = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
-                       .plant_ids = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL)};
+    FrReader reader;
+    fr_reader_open(&reader, document, context->diags);
     uint32_t root = document->tree->root;
     FrXmlRange name = document->tree->nodes[root].name;
     if (!fr_xml_equals(document->tree, name, "frond")) {
@@ -93,8 +91,7 @@ FrStatus fr_document_read(FrDocument *document, const FrContext *context) {
         fr_read_plants(&reader, root);
         fr_read_scenes(&reader, root);
     }
-    g_hash_table_unref(reader.material_ids);
-    g_hash_table_unref(reader.plant_ids);
+    fr_reader_close(&reader);
     return reader.status;
 }
 
@@ -129,6 +126,25 @@ FrStatus fr_document_load(const char *path, const FrContext *context, FrDocument
 
 const char *fr_document_name(const FrDocument *document) {
     return fr_source_name(document->tree->source);
+}
+
+char *fr_document_title(const FrDocument *document) {
+    const FrXmlTree *tree = document->tree;
+    for (uint32_t i = 0; i < tree->node_count; i++) {
+        if (tree->nodes[i].kind == FR_XML_COMMENT) {
+            FrXmlRange comment = tree->nodes[i].name;
+            char *text = g_strndup(fr_source_text(tree->source, NULL) + comment.begin,
+                                   comment.end - comment.begin);
+            g_strchug(text);
+            text[strcspn(text, "\r\n")] = '\0';
+            return g_strchomp(text);
+        }
+    }
+    return NULL;
+}
+
+FrSpan fr_document_span(const FrDocument *document) {
+    return fr_xml_span(document->tree, document->tree->nodes[document->tree->root].name);
 }
 
 const char *fr_document_folder(const FrDocument *document) {

@@ -24,6 +24,34 @@ static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
     return plant;
 }
 
+/// The `<plant>` whose name stands at a place of the text.
+static uint32_t find_node(const FrXmlTree *tree, uint32_t begin) {
+    uint32_t node = fr_xml_element_from(tree, tree->nodes[tree->root].first);
+    while (node != FR_NONE && tree->nodes[node].name.begin != begin) {
+        node = fr_xml_element_from(tree, tree->nodes[node].next);
+    }
+    return node;
+}
+
+FrPgraph *fr_document_reseed(const FrDocument *document, const FrPlantDef *plant, uint64_t seed) {
+    // Reading a graph changes nothing in the document.
+    FrReader reader;
+    fr_reader_open(&reader, (FrDocument *)document, NULL);
+    for (guint i = 0; i < document->materials->len; i++) {
+        FrMaterial *material = g_ptr_array_index(document->materials, i);
+        g_hash_table_insert(reader.material_ids, g_strdup(fr_material_name(material)), material);
+    }
+    FrPgraph *graph = fr_pgraph_new(plant->id, seed);
+    uint32_t node = find_node(document->tree, plant->span.begin);
+    FR_ASSERT(node != FR_NONE);
+    uint32_t definition = fr_read_first(&reader, node, FR_ELEMENT_PGRAPH);
+    if (definition != FR_NONE) {
+        fr_read_pgraph(&reader, definition, graph);
+    }
+    fr_reader_close(&reader);
+    return graph;
+}
+
 void fr_read_plants(FrReader *reader, uint32_t parent) {
     for (uint32_t node = fr_read_first(reader, parent, FR_ELEMENT_PLANT); node != FR_NONE;
          node = fr_read_next(reader, node, FR_ELEMENT_PLANT)) {

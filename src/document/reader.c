@@ -9,6 +9,20 @@ enum {
     HINT_CANDIDATES = 1000,
 };
 
+void fr_reader_open(FrReader *reader, FrDocument *document, FrDiags *diags) {
+    *reader =
+        (FrReader){.document = document,
+                   .tree = document->tree,
+                   .diags = diags,
+                   .material_ids = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
+                   .plant_ids = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL)};
+}
+
+void fr_reader_close(FrReader *reader) {
+    g_hash_table_unref(reader->material_ids);
+    g_hash_table_unref(reader->plant_ids);
+}
+
 void fr_read_note(FrReader *reader, FrStatus status) {
     reader->status = MAX(reader->status, status);
 }

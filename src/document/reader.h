@@ -17,13 +17,15 @@ struct FrDocument {
 typedef struct FrReader {
     FrDocument *document;
     const FrXmlTree *tree;
-    const FrContext *context;
     FrDiags *diags;
     FrStatus status;          ///< the worst so far
     GHashTable *material_ids; ///< id → FrMaterial *
     GHashTable *plant_ids;    ///< id → FrPlantDef *
     uint32_t hints;           ///< names suggested so far
 } FrReader;
+
+void fr_reader_open(FrReader *reader, FrDocument *document, FrDiags *diags);
+void fr_reader_close(FrReader *reader);
 
 /// Reads all sections of document->tree into the document.
 FR_MUST_USE FrStatus fr_document_read(FrDocument *document, const FrContext *context);

@@ -1,0 +1,81 @@
+/// The smallest box around a scene: nodes with their radii, organs as balls around their bases.
+#include "frond/scene.h"
+
+#include <cglm/struct.h>
+#include <math.h>
+
+typedef struct Box {
+    vec3s min, max;
+} Box;
+
+static void add_ball(Box *box, vec3s centre, float radius) {
+    box->min = glms_vec3_minv(box->min, glms_vec3_subs(centre, radius));
+    box->max = glms_vec3_maxv(box->max, glms_vec3_adds(centre, radius));
+}
+
+/// How far a shape of scale 1 reaches from its base.
+static float reach_of(const FrShape *shape) {
+    if (shape->kind == FR_SHAPE_BLADE) {
+        return shape->blade.petiole_length + hypotf(shape->blade.length, 0.5F * shape->blade.width);
+    }
+    vec3s half = {{0.5F * shape->size.x, 0.5F * shape->size.y, shape->size.z}};
+    return glms_vec3_norm(half);
+}
+
+static Box plant_box(const FrPlant *plant) {
+    Box box;
+    fr_plant_bounds(plant, &box.min, &box.max);
+    const uint16_t unseen = FR_SHED | FR_HIDDEN;
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        if ((plant->nodes.flags[i] & unseen) == 0) {
+            add_ball(&box, plant->nodes.position[i], plant->nodes.radius[i]);
+        }
+    }
+    for (uint32_t i = 0; i < plant->organs.count; i++) {
+        uint32_t shape = plant->organs.shape[i];
+        if ((plant->organs.flags[i] & unseen) != 0 || shape == FR_NONE) {
+            continue;
+        }
+        vec3s position;
+        versors rotation;
+        fr_plant_organ_pose(plant, i, &position, &rotation);
+        add_ball(&box, position,
+                 plant->organs.scale[i] * reach_of(&g_array_index(plant->shapes, FrShape, shape)));
+    }
+    return box;
+}
+
+/// Adds a plant's box where it stands.
+static void add_stand(const FrStand *stand, const Box *box, double min[3], double max[3]) {
+    double sine = sin(stand->turn), cosine = cos(stand->turn);
+    for (int corner = 0; corner < 8; corner++) {
+        double x = (double)((corner & 1) != 0 ? box->max.x : box->min.x) * stand->scale;
+        double y = (double)((corner & 2) != 0 ? box->max.y : box->min.y) * stand->scale;
+        double z = (double)((corner & 4) != 0 ? box->max.z : box->min.z) * stand->scale;
+        double point[3] = {stand->at[0] + cosine * x - sine * y,
+                           stand->at[1] + sine * x + cosine * y, stand->at[2] + z};
+        for (int axis = 0; axis < 3; axis++) {
+            min[axis] = fmin(min[axis], point[axis]);
+            max[axis] = fmax(max[axis], point[axis]);
+        }
+    }
+}
+
+void fr_scene_bounds(const FrScene *scene, double min[3], double max[3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        min[axis] = INFINITY;
+        max[axis] = -INFINITY;
+    }
+    Box *boxes = g_new(Box, scene->plants->len + 1);
+    for (guint i = 0; i < scene->plants->len; i++) {
+        boxes[i] = plant_box(g_array_index(scene->plants, FrScenePlant, i).plant);
+    }
+    for (guint i = 0; i < scene->stands->len; i++) {
+        const FrStand *stand = &g_array_index(scene->stands, FrStand, i);
+        const Box *box = &boxes[stand->plant];
+        if (box->min.x <= box->max.x) {
+            add_stand(stand, box, min, max);
+        }
+    }
+    g_free(boxes);
+}

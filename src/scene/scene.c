@@ -1,0 +1,201 @@
+/// A document built: each plant once for every seed it stands with.
+#include "frond/scene.h"
+
+#include <string.h>
+
+typedef struct Build {
+    const FrDocument *document;
+    const FrContext *context;
+    FrScene *scene;
+    GHashTable *definitions; ///< id → FrPlantDef *
+    GHashTable *built;       ///< "id seed" → index into plants + 1
+    int64_t seed;            ///< < 0: as the document says
+    uint64_t bytes;
+} Build;
+
+static void clear_plant(void *data) {
+    FrScenePlant *plant = data;
+    fr_plant_free(plant->plant);
+    g_free(plant->by_component);
+}
+
+static char *scene_name(const char *document) {
+    char *name = g_path_get_basename(document);
+    if (g_str_has_suffix(name, ".frond")) {
+        name[strlen(name) - strlen(".frond")] = '\0';
+    }
+    return name;
+}
+
+void fr_scene_free(FrScene *scene) {
+    if (scene == NULL) {
+        return;
+    }
+    g_array_unref(scene->plants);
+    g_array_unref(scene->stands);
+    g_ptr_array_unref(scene->views);
+    g_free(scene->name);
+    g_free(scene);
+}
+
+static uint64_t seed_of(const Build *build, const FrPlantDef *definition, int64_t own_seed) {
+    if (own_seed < 0) {
+        return build->seed < 0 ? definition->seed : (uint64_t)build->seed;
+    }
+    return build->seed < 0 ? (uint64_t)own_seed
+                           : fr_key_child(fr_key_root((uint64_t)build->seed), (uint64_t)own_seed);
+}
+
+/// Builds a definition with a seed and adds it to the scene.
+static FrStatus build_plant(Build *build, const FrPlantDef *definition, uint64_t seed) {
+    FrPgraph *reseeded =
+        seed == definition->seed ? NULL : fr_document_reseed(build->document, definition, seed);
+    const FrPgraph *graph = reseeded == NULL ? definition->pgraph : reseeded;
+    FrScenePlant made = {0};
+    FrPgraphCounts counts = {0};
+    FrStatus status = fr_pgraph_build(graph, build->context, &made.plant, &counts);
+    if (status == FR_OK) {
+        made.instances = counts.instances;
+        guint components = made.plant->components->len;
+        made.by_component = g_new0(uint64_t, components + 1);
+        for (guint i = 0; i < MIN(components, fr_pgraph_count(graph)); i++) {
+            made.by_component[i] = counts.by_component[i];
+        }
+        g_array_append_val(build->scene->plants, made);
+        build->bytes = fr_count_add(build->bytes, fr_plant_bytes(made.plant));
+        status = fr_limit_check(build->bytes, build->context->limits.bytes, "bytes", "the scene",
+                                definition->span, build->context->diags);
+    }
+    g_free(counts.by_component);
+    fr_pgraph_free(reseeded);
+    return status;
+}
+
+/// The scene's index of a plant with a seed, built now if it was not.
+static FrStatus use_plant(Build *build, const FrPlantDef *definition, int64_t own_seed,
+                          uint32_t *index) {
+    uint64_t seed = seed_of(build, definition, own_seed);
+    char *key = g_strdup_printf("%s %" G_GINT64_MODIFIER "x", definition->id, seed);
+    uint32_t found = GPOINTER_TO_UINT(g_hash_table_lookup(build->built, key));
+    if (found != 0) {
+        *index = found - 1;
+        g_free(key);
+        return FR_OK;
+    }
+    *index = build->scene->plants->len;
+    g_hash_table_insert(build->built, key, GUINT_TO_POINTER(*index + 1));
+    return build_plant(build, definition, seed);
+}
+
+static FrStatus build_place(Build *build, const FrPlace *place) {
+    const FrPlantDef *definition =
+        place->plant == NULL ? NULL : g_hash_table_lookup(build->definitions, place->plant);
+    if (definition == NULL) {
+        fr_diags_add(build->context->diags, FR_ERROR, "unknown-plant", place->span,
+                     "no plant to stand here");
+        return FR_ERR_DOCUMENT;
+    }
+    if (fr_progress_is_cancelled(build->context->progress)) {
+        return FR_CANCELLED;
+    }
+    FrStand stand = {.at = {(double)place->at.x, (double)place->at.y, (double)place->at.z},
+                     .turn = place->turn * G_PI / 180,
+                     .scale = place->scale};
+    FrStatus status = use_plant(build, definition, place->seed, &stand.plant);
+    if (status == FR_OK) {
+        g_array_append_val(build->scene->stands, stand);
+    }
+    return status;
+}
+
+/// Without places: the first plant at the origin.
+static FrStatus build_first(Build *build) {
+    const GPtrArray *plants = fr_document_plants(build->document);
+    if (plants->len == 0) {
+        fr_diags_add(build->context->diags, FR_ERROR, "no-plant", fr_document_span(build->document),
+                     "there is no plant in this document");
+        return FR_ERR_DOCUMENT;
+    }
+    FrStand stand = {.scale = 1};
+    FrStatus status = use_plant(build, g_ptr_array_index(plants, 0), -1, &stand.plant);
+    if (status == FR_OK) {
+        g_array_append_val(build->scene->stands, stand);
+    }
+    return status;
+}
+
+static FrStatus build_places(Build *build) {
+    const GPtrArray *places = fr_document_places(build->document);
+    if (places->len == 0) {
+        return build_first(build);
+    }
+    const FrPlace *first = g_ptr_array_index(places, 0);
+    FrStatus status = fr_limit_check(places->len, build->context->limits.plants, "plants",
+                                     "the scene", first->span, build->context->diags);
+    for (guint i = 0; i < places->len && status == FR_OK; i++) {
+        status = build_place(build, g_ptr_array_index(places, i));
+    }
+    return status;
+}
+
+static FrScene *new_scene(const FrDocument *document, int64_t seed) {
+    FrScene *scene = g_new0(FrScene, 1);
+    scene->name = scene_name(fr_document_name(document));
+    scene->plants = g_array_new(FALSE, FALSE, sizeof(FrScenePlant));
+    g_array_set_clear_func(scene->plants, clear_plant);
+    scene->stands = g_array_new(FALSE, FALSE, sizeof(FrStand));
+    scene->views = g_ptr_array_new();
+    const GPtrArray *views = fr_document_views(document);
+    for (guint i = 0; i < views->len; i++) {
+        g_ptr_array_add(scene->views, g_ptr_array_index(views, i));
+    }
+    scene->params = fr_document_scene(document);
+    const GPtrArray *plants = fr_document_plants(document);
+    if (seed >= 0) {
+        scene->seed = (uint64_t)seed;
+    } else if (plants->len > 0) {
+        scene->seed = ((const FrPlantDef *)g_ptr_array_index(plants, 0))->seed;
+    }
+    return scene;
+}
+
+FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContext *context,
+                        FrScene **scene) {
+    *scene = NULL;
+    Build build = {.document = document,
+                   .context = context,
+                   .scene = new_scene(document, seed),
+                   .definitions = g_hash_table_new(g_str_hash, g_str_equal),
+                   .built = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
+                   .seed = seed};
+    const GPtrArray *plants = fr_document_plants(document);
+    for (guint i = 0; i < plants->len; i++) {
+        FrPlantDef *definition = g_ptr_array_index(plants, i);
+        g_hash_table_insert(build.definitions, definition->id, definition);
+    }
+    FrStatus status = build_places(&build);
+    g_hash_table_unref(build.definitions);
+    g_hash_table_unref(build.built);
+    if (status != FR_OK) {
+        fr_scene_free(build.scene);
+        return status;
+    }
+    *scene = build.scene;
+    return FR_OK;
+}
+
+FrDigest fr_scene_digest(const FrScene *scene) {
+    FrDigest digest = 0;
+    for (guint i = 0; i < scene->plants->len; i++) {
+        FrDigest plant = fr_plant_digest(g_array_index(scene->plants, FrScenePlant, i).plant);
+        digest = fr_digest(digest, &plant, sizeof plant);
+    }
+    for (guint i = 0; i < scene->stands->len; i++) {
+        const FrStand *stand = &g_array_index(scene->stands, FrStand, i);
+        digest = fr_digest(digest, &stand->plant, sizeof stand->plant);
+        digest = fr_digest(digest, stand->at, sizeof stand->at);
+        digest = fr_digest(digest, &stand->turn, sizeof stand->turn);
+        digest = fr_digest(digest, &stand->scale, sizeof stand->scale);
+    }
+    return digest;
+}
