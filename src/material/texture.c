@@ -133,6 +133,10 @@ static const struct {
     bool is_tiled, has_alpha;
 } kinds[] = {
     [FR_TEXTURE_LEAF] = {fr_texture_leaf, false, true},
+    [FR_TEXTURE_PETAL] = {fr_texture_petal, false, true},
+    [FR_TEXTURE_BARK_FURROWED] = {fr_texture_bark_furrowed, true, false},
+    [FR_TEXTURE_BARK_SMOOTH] = {fr_texture_bark_smooth, true, false},
+    [FR_TEXTURE_BARK_PLATED] = {fr_texture_bark_plated, true, false},
 };
 
 FrStatus fr_texture_make(const FrMaterialParams *params, const char *name, FrSpan span,

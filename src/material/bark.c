@@ -1,0 +1,128 @@
+#include "material/bark.h"
+
+#include <math.h>
+
+float fr_bark_smooth(float low, float high, float value) {
+    float t = CLAMP((value - low) / (high - low), 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+// ---- noise --------------------------------------------------------------------------------------
+
+static int wrap(int value, int period) {
+    int rest = value % period;
+    return rest < 0 ? rest + period : rest;
+}
+
+static float corner(FrKey key, int i, int j, float x, float y) {
+    uint64_t bits = fr_random_bits(key, (uint32_t)i, (uint32_t)j);
+    float gx = (float)(bits >> 40) * 0x1.0p-23f - 1.0f;
+    float gy = (float)(bits & 0xffffff) * 0x1.0p-23f - 1.0f;
+    return gx * x + gy * y;
+}
+
+static float fade(float t) {
+    return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
+}
+
+float fr_bark_noise(FrKey key, float u, float v, int across, int along) {
+    float x = u * (float)across, y = v * (float)along;
+    float fx = floorf(x), fy = floorf(y);
+    int i0 = wrap((int)fx, across), j0 = wrap((int)fy, along);
+    int i1 = (i0 + 1) % across, j1 = (j0 + 1) % along;
+    x -= fx;
+    y -= fy;
+    float sx = fade(x), sy = fade(y);
+    float top0 = corner(key, i0, j0, x, y), top1 = corner(key, i1, j0, x - 1, y);
+    float low0 = corner(key, i0, j1, x, y - 1), low1 = corner(key, i1, j1, x - 1, y - 1);
+    float top = top0 + sx * (top1 - top0), low = low0 + sx * (low1 - low0);
+    return 1.6f * (top + sy * (low - top));
+}
+
+float fr_bark_fractal(FrKey key, float u, float v, int across, int along, int octaves) {
+    float sum = 0, strength = 0.6f;
+    for (int octave = 0; octave < octaves; octave++) {
+        FrKey own = fr_key_child(key, (uint64_t)octave);
+        sum += strength * fr_bark_noise(own, u, v, across << octave, along << octave);
+        strength *= 0.5f;
+    }
+    return sum;
+}
+
+// ---- plates -------------------------------------------------------------------------------------
+
+void fr_bark_cells_init(FrBarkCells *cells, FrKey key, int across, int along, float jitter) {
+    size_t count = (size_t)across * (size_t)along;
+    *cells = (FrBarkCells){.across = across, .along = along};
+    cells->sites = g_new(float, count * 2);
+    cells->random = g_new(float, count);
+    for (size_t i = 0; i < count; i++) {
+        uint32_t draw = (uint32_t)i;
+        // Every other column is shifted by half a cell, like bricks on end.
+        float shift = (i % (size_t)across) % 2 == 0 ? -0.25f : 0.25f;
+        if (across % 2 != 0) {
+            shift = 0;
+        }
+        cells->sites[2 * i] = 0.5f + 0.5f * jitter * (float)fr_random_signed(key, 0, draw);
+        cells->sites[2 * i + 1] =
+            0.5f + shift + 0.5f * jitter * (float)fr_random_signed(key, 1, draw);
+        cells->random[i] = (float)fr_random(key, 2, draw);
+    }
+}
+
+void fr_bark_cells_clear(FrBarkCells *cells) {
+    g_free(cells->sites);
+    g_free(cells->random);
+}
+
+typedef struct Site {
+    float x, y; ///< from the place asked about
+    size_t cell;
+} Site;
+
+static Site site_at(const FrBarkCells *cells, int column, int row, float x, float y) {
+    size_t cell = (size_t)wrap(row, cells->along) * (size_t)cells->across +
+                  (size_t)wrap(column, cells->across);
+    return (Site){.x = (float)column + cells->sites[2 * cell] - x,
+                  .y = (float)row + cells->sites[2 * cell + 1] - y,
+                  .cell = cell};
+}
+
+FrBarkPlate fr_bark_plate(const FrBarkCells *cells, float u, float v) {
+    float x = u * (float)cells->across, y = v * (float)cells->along;
+    int column = (int)floorf(x), row = (int)floorf(y);
+    Site nearest = {0};
+    float least = INFINITY;
+    for (int j = -2; j <= 2; j++) {
+        for (int i = -2; i <= 2; i++) {
+            Site site = site_at(cells, column + i, row + j, x, y);
+            float squared = site.x * site.x + site.y * site.y;
+            if (squared < least) {
+                least = squared;
+                nearest = site;
+            }
+        }
+    }
+    FrBarkPlate plate = {.edge = INFINITY, .random = cells->random[nearest.cell]};
+    float weights = 0, upright = 0, other = 0;
+    for (int j = -2; j <= 2; j++) {
+        for (int i = -2; i <= 2; i++) {
+            Site site = site_at(cells, column + i, row + j, x, y);
+            float dx = site.x - nearest.x, dy = site.y - nearest.y;
+            float apart = sqrtf(dx * dx + dy * dy);
+            if (apart < 1e-4f) {
+                continue;
+            }
+            float edge = 0.5f * ((nearest.x + site.x) * dx + (nearest.y + site.y) * dy) / apart;
+            plate.edge = fminf(plate.edge, edge);
+            // Weighted over all borders: with the nearest one alone it would jump inside a plate.
+            float weight = edge < 0.6f ? expf(-12.0f * edge) : 1e-6f;
+            weights += weight;
+            upright += weight * fabsf(dx) / apart;
+            other += weight * cells->random[site.cell];
+        }
+    }
+    plate.upright = upright / weights;
+    plate.other = other / weights;
+    return plate;
+}
