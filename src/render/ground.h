@@ -1,0 +1,20 @@
+/// @file ground.h
+/// Level ground at z = 0 without end: matt earth, unevenly coloured and slightly rough. Private to
+/// render.
+#pragma once
+
+#include "frond/vector.h"
+
+typedef struct FrGround {
+    vec3s colour;     ///< linear, the mean
+    float *height;    ///< a tile of noise in −1 … 1, GROUND_CELLS a side
+    float variation;  ///< 0: the same colour and level everywhere
+    float haze;       ///< m: distance at which it turns into the horizon; INFINITY: never
+    double origin[2]; ///< of the renderer's coordinates in the world, so that patches stay in place
+} FrGround;
+
+FrGround *fr_ground_new(vec3s colour, float variation);
+void fr_ground_free(FrGround *ground);
+/// Colour and unit normal at a point.
+vec3s fr_ground_colour(const FrGround *ground, float x, float y);
+vec3s fr_ground_normal(const FrGround *ground, float x, float y);
