@@ -1,0 +1,134 @@
+/// @file cli.h
+/// What the verbs of the `frond` program share: its options, and the session around a verb.
+#pragma once
+
+#include "frond/io.h"
+#include "frond/render.h"
+
+#include <jansson.h>
+
+/// One bit for each verb, for tables that say what belongs to which.
+typedef enum CliVerbId {
+    CLI_BUILD = 1 << 0,
+    CLI_RENDER = 1 << 1,
+    CLI_CHECK = 1 << 2,
+    CLI_INFO = 1 << 3,
+    CLI_PRESETS = 1 << 4,
+    CLI_NEW = 1 << 5,
+    CLI_SCHEMA = 1 << 6,
+    CLI_REFERENCE = 1 << 7,
+    CLI_ALL = (1 << 8) - 1
+} CliVerbId;
+
+typedef struct CliOptions {
+    GPtrArray *files;   ///< char *, what stands without an option
+    GPtrArray *outputs; ///< char *, of -o
+    GPtrArray *sets;    ///< char *, "path=value"
+    int64_t seed;       ///< < 0: as the document says
+    int threads;        ///< 0: one per processor
+    int64_t lod;
+    int64_t samples, width, height; ///< 0: the default
+    FrLeaves leaves;
+    FrLimits limits;
+    char *camera, *stats, *preset; ///< NULL: not given
+    bool is_json, is_diag_json, is_quiet, is_verbose, wants_help, wants_version;
+} CliOptions;
+
+typedef struct CliSession CliSession;
+
+typedef struct CliVerb {
+    CliVerbId id;
+    const char *name;
+    const char *synopsis;
+    const char *meaning;
+    FrStatus (*run)(CliSession *session);
+    guint least_files, most_files;
+} CliVerb;
+
+/// What a verb works with. `context` has a pool, a progress and diagnostics.
+struct CliSession {
+    const CliVerb *verb;
+    const CliOptions *options;
+    FrContext context;
+    double began; ///< seconds of the monotonic clock
+    double read_seconds, build_seconds, render_seconds;
+};
+
+// ---- options.c --------------------------------------------------------------------------------
+
+CliOptions cli_options_new(void);
+void cli_options_clear(CliOptions *options);
+/// Reads all arguments; what is no option is added to `files`. False after a message.
+bool cli_options_parse(CliOptions *options, const CliVerb *verb, int count, char **arguments);
+/// Prints the options that belong to a verb.
+void cli_options_print(CliVerbId verb, FILE *out);
+
+// ---- message.c --------------------------------------------------------------------------------
+
+/// A message on stderr: `frond: …`.
+void cli_message(const char *format, ...) FR_PRINTF(1, 2);
+/// "; did you mean 'x'?" or "". Free with g_free().
+char *cli_hint(const char *name, const char *const *candidates, size_t count);
+double cli_now(void);
+/// 1234567 → "1 234 567". Free with g_free().
+char *cli_count_text(uint64_t count);
+
+// ---- session.c --------------------------------------------------------------------------------
+
+void cli_session_open(CliSession *session, const CliVerb *verb, const CliOptions *options);
+/// Prints what is left to say and frees everything.
+void cli_session_close(CliSession *session);
+/// Prints the diagnostics so far to stderr and begins anew.
+void cli_session_flush(CliSession *session);
+/// The signal that asked to stop, 0 if none did.
+int cli_session_signal(void);
+/// Reads a document and applies --set.
+FR_MUST_USE FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **document);
+/// Reads and builds. On failure both are NULL.
+FR_MUST_USE FrStatus cli_session_build(CliSession *session, const char *path, FrDocument **document,
+                                       FrScene **scene);
+/// Writes a whole file or none.
+FR_MUST_USE FrStatus cli_session_save(CliSession *session, const char *path, const void *data,
+                                      size_t size);
+
+// ---- progress.c -------------------------------------------------------------------------------
+
+/// A progress bar on stderr, or nothing where that is no terminal.
+FrProgress *cli_progress_new(bool is_quiet);
+/// Frees the progress and wipes the bar.
+void cli_progress_free(FrProgress *progress);
+
+// ---- stats.c ----------------------------------------------------------------------------------
+
+/// Writes --stats. `io` is NULL where no model was written.
+FR_MUST_USE FrStatus cli_stats_write(CliSession *session, const char *document,
+                                     const FrScene *scene, const FrIoStats *io);
+
+// ---- chains.c ---------------------------------------------------------------------------------
+
+/// Chains of a component in an i-tree: instances that follow upon instances of the same component,
+/// directly or through others. A component in no recursion has chains of one.
+typedef struct CliChains {
+    uint64_t count;
+    uint32_t shortest, longest;
+} CliChains;
+
+/// One CliChains for each component; free with g_free().
+CliChains *cli_chains_count(const FrPgraphCounts *counts, uint32_t components);
+
+// ---- model.c ----------------------------------------------------------------------------------
+
+bool cli_is_model(const char *path);
+/// What is in a .glb or .gltf file.
+FR_MUST_USE FrStatus cli_model_info(CliSession *session, const char *path);
+
+// ---- verbs ------------------------------------------------------------------------------------
+
+FrStatus cli_build(CliSession *session);
+FrStatus cli_render(CliSession *session);
+FrStatus cli_check(CliSession *session);
+FrStatus cli_info(CliSession *session);
+FrStatus cli_presets(CliSession *session);
+FrStatus cli_new(CliSession *session);
+FrStatus cli_schema(CliSession *session);
+FrStatus cli_reference(CliSession *session);

@@ -1,0 +1,156 @@
+/// frond: plants from documents, on the command line.
+#include "cli/cli.h"
+
+#include <locale.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+static const CliVerb verbs[] = {
+    {CLI_BUILD, "build", "DOC [-o OUT]...", "grow what a document says and write it as a model",
+     cli_build, 1, 1},
+    {CLI_RENDER, "render", "DOC -o OUT.png", "make a picture of it", cli_render, 1, 1},
+    {CLI_CHECK, "check", "DOC...", "say what is wrong; nothing if nothing is", cli_check, 1,
+     G_MAXUINT},
+    {CLI_INFO, "info", "DOC|MODEL", "say what is in a document, a .glb or a .gltf", cli_info, 1, 1},
+    {CLI_PRESETS, "presets", "", "list the species that come with the program", cli_presets, 0, 0},
+    {CLI_NEW, "new", "NAME --preset SPECIES", "begin a document NAME.frond from a species", cli_new,
+     1, 1},
+    {CLI_SCHEMA, "schema", "", "print the XML Schema of documents", cli_schema, 0, 0},
+    {CLI_REFERENCE, "reference", "", "print the reference of elements and attributes",
+     cli_reference, 0, 0},
+};
+
+static void print_verbs(FILE *out) {
+    for (size_t i = 0; i < G_N_ELEMENTS(verbs); i++) {
+        fprintf(out, "  %-10s %s\n", verbs[i].name, verbs[i].meaning);
+    }
+}
+
+static void print_usage(FILE *out) {
+    fprintf(out, "usage: frond VERB FILE... [options]\n\n");
+    print_verbs(out);
+    fprintf(out, "\nfrond VERB -h says more. Manual: man frond\n");
+}
+
+static void print_help(const CliVerb *verb) {
+    printf("usage: frond %s%s%s [options]\n\n%s\n\n", verb->name,
+           *verb->synopsis == '\0' ? "" : " ", verb->synopsis, verb->meaning);
+    cli_options_print(verb->id, stdout);
+    if (verb->id == CLI_BUILD) {
+        printf("\nformats:");
+        for (const char *const *extension = fr_io_extensions(); *extension != NULL; extension++) {
+            printf(" %s", *extension);
+        }
+        printf("\n");
+    }
+}
+
+static const CliVerb *find_verb(const char *name) {
+    for (size_t i = 0; i < G_N_ELEMENTS(verbs); i++) {
+        if (strcmp(verbs[i].name, name) == 0) {
+            return &verbs[i];
+        }
+    }
+    return NULL;
+}
+
+static void report_unknown_verb(const char *name) {
+    static const char *const planned[] = {"derive", "vary", "convert"};
+    const char *names[G_N_ELEMENTS(verbs)];
+    for (size_t i = 0; i < G_N_ELEMENTS(verbs); i++) {
+        names[i] = verbs[i].name;
+    }
+    bool is_planned = false;
+    for (size_t i = 0; i < G_N_ELEMENTS(planned); i++) {
+        is_planned |= strcmp(name, planned[i]) == 0;
+    }
+    if (is_planned) {
+        cli_message("'%s' is not in this version (%s); its verbs are", name, FR_VERSION);
+    } else {
+        char *hint = cli_hint(name, names, G_N_ELEMENTS(names));
+        cli_message("there is no verb '%s'%s%s", name, hint,
+                    *hint == '\0' ? "; the verbs are" : " The verbs are");
+        g_free(hint);
+    }
+    print_verbs(stderr);
+}
+
+static bool check_files(const CliVerb *verb, const CliOptions *options) {
+    guint count = options->files->len;
+    if (count >= verb->least_files && count <= verb->most_files) {
+        return true;
+    }
+    if (count < verb->least_files) {
+        cli_message("'%s' needs a file: frond %s %s", verb->name, verb->name, verb->synopsis);
+    } else {
+        cli_message("'%s' is too much: frond %s %s",
+                    (const char *)g_ptr_array_index(options->files, verb->most_files), verb->name,
+                    verb->synopsis);
+    }
+    return false;
+}
+
+static FrStatus run_verb(const CliVerb *verb, const CliOptions *options) {
+    CliSession session;
+    cli_session_open(&session, verb, options);
+    FrStatus status = verb->run(&session);
+    cli_session_close(&session);
+    if (fflush(stdout) != 0 || ferror(stdout) != 0) {
+        cli_message("cannot write to standard output");
+        return FR_ERR_MACHINE;
+    }
+    if (status == FR_CANCELLED) {
+        cli_message("stopped");
+    }
+    return status;
+}
+
+/// Verb, options and what they ask for. `arguments` begins behind the program's name.
+static FrStatus run(int count, char **arguments, CliOptions *options) {
+    if (count == 0) {
+        print_usage(stderr);
+        return FR_ERR_USAGE;
+    }
+    const CliVerb *verb = NULL;
+    if (arguments[0][0] != '-') {
+        const char *name = strcmp(arguments[0], "help") == 0 ? NULL : arguments[0];
+        verb = name == NULL ? NULL : find_verb(name);
+        options->wants_help = name == NULL;
+        if (verb == NULL && name != NULL) {
+            report_unknown_verb(name);
+            return FR_ERR_USAGE;
+        }
+        arguments++;
+        count--;
+    }
+    if (!cli_options_parse(options, verb, count, arguments)) {
+        return FR_ERR_USAGE;
+    }
+    if (options->wants_version) {
+        printf("frond %s\n", FR_VERSION);
+        return FR_OK;
+    }
+    if (verb == NULL) {
+        print_usage(options->wants_help ? stdout : stderr);
+        return options->wants_help ? FR_OK : FR_ERR_USAGE;
+    }
+    if (options->wants_help) {
+        print_help(verb);
+        return FR_OK;
+    }
+    return check_files(verb, options) ? run_verb(verb, options) : FR_ERR_USAGE;
+}
+
+int main(int count, char **arguments) {
+    setlocale(LC_CTYPE, "");
+    CliOptions options = cli_options_new();
+    FrStatus status = run(count - 1, arguments + 1, &options);
+    cli_options_clear(&options);
+    if (status == FR_CANCELLED && cli_session_signal() != 0) {
+        // Whoever started the program sees that a signal ended it.
+        signal(cli_session_signal(), SIG_DFL);
+        raise(cli_session_signal());
+    }
+    return (int)status;
+}

@@ -1,0 +1,310 @@
+/// Command-line options: one row each says what it is called, which verbs take it and what it does.
+#include "cli/cli.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct OptionRow {
+    const char *name;
+    char letter;          ///< 0: none
+    const char *argument; ///< NULL: takes none
+    int verbs;            ///< of CliVerbId
+    const char *meaning;
+    bool (*take)(CliOptions *options, const char *value);
+} OptionRow;
+
+static bool take_integer(const char *name, const char *value, int64_t min, int64_t max,
+                         int64_t *number) {
+    GError *error = NULL;
+    gint64 parsed;
+    if (!g_ascii_string_to_signed(value, 10, min, max, &parsed, &error)) {
+        cli_message("--%s takes a whole number from %" G_GINT64_FORMAT " to %" G_GINT64_FORMAT
+                    ", not '%s'",
+                    name, min, max, value);
+        g_error_free(error);
+        return false;
+    }
+    *number = parsed;
+    return true;
+}
+
+static bool take_seed(CliOptions *options, const char *value) {
+    return take_integer("seed", value, 0, UINT32_MAX, &options->seed);
+}
+
+static bool take_threads(CliOptions *options, const char *value) {
+    int64_t threads;
+    bool is_right = take_integer("threads", value, 1, 1024, &threads);
+    options->threads = is_right ? (int)threads : 0;
+    return is_right;
+}
+
+static bool take_lod(CliOptions *options, const char *value) {
+    return take_integer("lod", value, 0, 8, &options->lod);
+}
+
+static bool take_samples(CliOptions *options, const char *value) {
+    return take_integer("samples", value, 1, 65536, &options->samples);
+}
+
+static bool take_size(CliOptions *options, const char *value) {
+    char **sides = g_strsplit(value, "x", 3);
+    guint64 width = 0, height = 0;
+    bool is_right = g_strv_length(sides) == 2 &&
+                    g_ascii_string_to_unsigned(sides[0], 10, 1, 32768, &width, NULL) &&
+                    g_ascii_string_to_unsigned(sides[1], 10, 1, 32768, &height, NULL);
+    g_strfreev(sides);
+    if (!is_right) {
+        cli_message("--size takes WIDTHxHEIGHT in pixels, like 960x1200, not '%s'", value);
+    }
+    options->width = (int64_t)width;
+    options->height = (int64_t)height;
+    return is_right;
+}
+
+static bool take_leaves(CliOptions *options, const char *value) {
+    static const char *const names[] = {"merged", "nodes", "gpu"};
+    for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+        if (strcmp(value, names[i]) == 0) {
+            options->leaves = (FrLeaves)i;
+            return true;
+        }
+    }
+    char *hint = cli_hint(value, names, G_N_ELEMENTS(names));
+    cli_message("--leaves takes merged, nodes or gpu, not '%s'%s", value, hint);
+    g_free(hint);
+    return false;
+}
+
+static bool take_diag(CliOptions *options, const char *value) {
+    options->is_diag_json = strcmp(value, "json") == 0;
+    bool is_right = options->is_diag_json || strcmp(value, "text") == 0;
+    if (!is_right) {
+        cli_message("--diag takes text or json, not '%s'", value);
+    }
+    return is_right;
+}
+
+static bool take_limit(CliOptions *options, const char *value) {
+    const char *equals = strchr(value, '=');
+    if (equals == NULL) {
+        cli_message("--limit takes NAME=VALUE, not '%s'", value);
+        return false;
+    }
+    char *name = g_strndup(value, (gsize)(equals - value));
+    FrDiags *diags = fr_diags_new();
+    FrStatus status = fr_limits_set(&options->limits, name, equals + 1, diags);
+    if (status != FR_OK && fr_diags_count(diags) > 0) {
+        cli_message("%s", fr_diags_get(diags, 0)->text);
+    }
+    fr_diags_free(diags);
+    g_free(name);
+    return status == FR_OK;
+}
+
+static bool take_set(CliOptions *options, const char *value) {
+    if (strchr(value, '=') == NULL) {
+        cli_message("--set takes PATH=VALUE, like trunk.length=9, not '%s'", value);
+        return false;
+    }
+    g_ptr_array_add(options->sets, g_strdup(value));
+    return true;
+}
+
+static bool take_output(CliOptions *options, const char *value) {
+    g_ptr_array_add(options->outputs, g_strdup(value));
+    return true;
+}
+
+static bool replace_text(char **text, const char *value) {
+    g_free(*text);
+    *text = g_strdup(value);
+    return true;
+}
+
+static bool take_camera(CliOptions *options, const char *value) {
+    return replace_text(&options->camera, value);
+}
+
+static bool take_stats(CliOptions *options, const char *value) {
+    return replace_text(&options->stats, value);
+}
+
+static bool take_preset(CliOptions *options, const char *value) {
+    return replace_text(&options->preset, value);
+}
+
+static bool take_json(CliOptions *options, const char *value) {
+    (void)value;
+    return options->is_json = true;
+}
+
+static bool take_quiet(CliOptions *options, const char *value) {
+    (void)value;
+    return options->is_quiet = true;
+}
+
+static bool take_verbose(CliOptions *options, const char *value) {
+    (void)value;
+    return options->is_verbose = true;
+}
+
+static bool take_help(CliOptions *options, const char *value) {
+    (void)value;
+    return options->wants_help = true;
+}
+
+static bool take_version(CliOptions *options, const char *value) {
+    (void)value;
+    return options->wants_version = true;
+}
+
+enum {
+    READING = CLI_BUILD | CLI_RENDER | CLI_CHECK | CLI_INFO,
+    MAKING = CLI_BUILD | CLI_RENDER,
+};
+
+static const OptionRow rows[] = {
+    {"output", 'o', "FILE", MAKING, "write FILE; its extension says the format", take_output},
+    {"seed", 0, "N", READING, "grow all plants from this seed", take_seed},
+    {"set", 0, "PATH=VALUE", READING, "change an attribute, like trunk.length=9", take_set},
+    {"lod", 0, "N", MAKING, "level of detail: 0 finest, to 8", take_lod},
+    {"leaves", 0, "HOW", CLI_BUILD, "in glTF: merged (default), nodes, gpu", take_leaves},
+    {"size", 0, "WxH", CLI_RENDER, "pixels of the picture", take_size},
+    {"samples", 0, "N", CLI_RENDER, "paths per pixel", take_samples},
+    {"camera", 0, "NAME", CLI_RENDER, "the view of that name", take_camera},
+    {"preset", 0, "NAME", CLI_NEW, "the species to begin with; see frond presets", take_preset},
+    {"json", 0, NULL, CLI_INFO | CLI_PRESETS, "for programs instead of people", take_json},
+    {"threads", 0, "N", READING, "threads to use; all processors if not given", take_threads},
+    {"limit", 0, "NAME=VALUE", READING, "allow more or less, like instances=1000000", take_limit},
+    {"stats", 0, "FILE", MAKING, "write statistics as JSON; - is standard output", take_stats},
+    {"diag", 0, "text|json", READING, "how errors are printed", take_diag},
+    {"quiet", 'q', NULL, CLI_ALL, "errors only", take_quiet},
+    {"verbose", 'v', NULL, READING, "say what is done and how long it took", take_verbose},
+    {"help", 'h', NULL, CLI_ALL, "this help", take_help},
+    {"version", 0, NULL, CLI_ALL, "the version of the program", take_version},
+};
+
+CliOptions cli_options_new(void) {
+    return (CliOptions){.files = g_ptr_array_new_with_free_func(g_free),
+                        .outputs = g_ptr_array_new_with_free_func(g_free),
+                        .sets = g_ptr_array_new_with_free_func(g_free),
+                        .seed = -1,
+                        .limits = fr_limits_default()};
+}
+
+void cli_options_clear(CliOptions *options) {
+    g_ptr_array_unref(options->files);
+    g_ptr_array_unref(options->outputs);
+    g_ptr_array_unref(options->sets);
+    g_free(options->camera);
+    g_free(options->stats);
+    g_free(options->preset);
+}
+
+static void report_unknown(const char *name, const CliVerb *verb) {
+    const char *names[G_N_ELEMENTS(rows)];
+    size_t count = 0;
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        if (verb == NULL || (rows[i].verbs & (int)verb->id) != 0) {
+            names[count++] = rows[i].name;
+        }
+    }
+    const char *near = fr_nearest_name(name, names, count);
+    if (near != NULL) {
+        cli_message("unknown option '--%s'; did you mean '--%s'?", name, near);
+    } else {
+        cli_message("unknown option '--%s'; frond %s -h lists them", name,
+                    verb == NULL ? "" : verb->name);
+    }
+}
+
+static const OptionRow *find_row(const char *name, size_t length, char letter) {
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        bool is_named = name != NULL && strlen(rows[i].name) == length &&
+                        memcmp(rows[i].name, name, length) == 0;
+        if (is_named || (letter != 0 && rows[i].letter == letter)) {
+            return &rows[i];
+        }
+    }
+    return NULL;
+}
+
+static bool check_verb(const OptionRow *row, const CliVerb *verb) {
+    if (verb == NULL || (row->verbs & (int)verb->id) != 0) {
+        return true;
+    }
+    cli_message("'%s' does not take --%s", verb->name, row->name);
+    return false;
+}
+
+/// Does one option; *used counts the arguments it took.
+static bool take_option(CliOptions *options, const CliVerb *verb, int count, char **arguments,
+                        int *used) {
+    const char *argument = arguments[0];
+    bool is_long = argument[1] == '-';
+    const char *name = argument + 2;
+    size_t length = strcspn(name, "=");
+    const OptionRow *row = is_long ? find_row(name, length, 0) : find_row(NULL, 0, argument[1]);
+    if (row == NULL) {
+        char *unknown = is_long ? g_strndup(name, length) : g_strdup(argument + 1);
+        report_unknown(unknown, verb);
+        g_free(unknown);
+        return false;
+    }
+    if (!check_verb(row, verb)) {
+        return false;
+    }
+    const char *attached = is_long ? (name[length] == '=' ? name + length + 1 : NULL)
+                                   : (argument[2] != '\0' ? argument + 2 : NULL);
+    *used = 1;
+    if (row->argument == NULL) {
+        if (attached != NULL) {
+            cli_message("--%s takes no value", row->name);
+            return false;
+        }
+        return row->take(options, NULL);
+    }
+    if (attached == NULL) {
+        if (count < 2) {
+            cli_message("--%s needs a value: %s", row->name, row->argument);
+            return false;
+        }
+        attached = arguments[1];
+        *used = 2;
+    }
+    return row->take(options, attached);
+}
+
+bool cli_options_parse(CliOptions *options, const CliVerb *verb, int count, char **arguments) {
+    bool are_over = false;
+    for (int i = 0; i < count;) {
+        int used = 1;
+        if (!are_over && strcmp(arguments[i], "--") == 0) {
+            are_over = true;
+        } else if (!are_over && arguments[i][0] == '-' && arguments[i][1] != '\0') {
+            if (!take_option(options, verb, count - i, arguments + i, &used)) {
+                return false;
+            }
+        } else {
+            g_ptr_array_add(options->files, g_strdup(arguments[i]));
+        }
+        i += used;
+    }
+    return true;
+}
+
+void cli_options_print(CliVerbId verb, FILE *out) {
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        if ((rows[i].verbs & (int)verb) == 0) {
+            continue;
+        }
+        char *name = g_strdup_printf("--%s%s%s", rows[i].name, rows[i].argument == NULL ? "" : " ",
+                                     rows[i].argument == NULL ? "" : rows[i].argument);
+        char letter[] = {rows[i].letter == 0 ? ' ' : '-',
+                         rows[i].letter == 0 ? ' ' : rows[i].letter,
+                         rows[i].letter == 0 ? ' ' : ',', '\0'};
+        fprintf(out, "  %s %-18s %s\n", letter, name, rows[i].meaning);
+        g_free(name);
+    }
+}

@@ -1,0 +1,128 @@
+/// The session around a verb: threads, Ctrl-C, diagnostics, the way from a file to a scene.
+#include "cli/cli.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+// Written by the signal handler: what to cancel, and what has asked for it.
+static FrProgress *volatile watched;
+static volatile sig_atomic_t received;
+
+static void on_signal(int number) {
+    received = number;
+    if (watched != NULL) {
+        fr_progress_cancel(watched);
+    }
+}
+
+static void watch_signals(FrProgress *progress) {
+    watched = progress;
+    // The second Ctrl-C ends the program at once.
+    struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+int cli_session_signal(void) {
+    return received;
+}
+
+void cli_session_open(CliSession *session, const CliVerb *verb, const CliOptions *options) {
+    *session = (CliSession){.verb = verb, .options = options, .began = cli_now()};
+    session->context = (FrContext){.pool = fr_pool_new(options->threads),
+                                   .progress = cli_progress_new(options->is_quiet),
+                                   .diags = fr_diags_new(),
+                                   .limits = options->limits};
+    watch_signals(session->context.progress);
+}
+
+void cli_session_close(CliSession *session) {
+    watched = NULL;
+    cli_progress_free(session->context.progress);
+    session->context.progress = NULL;
+    cli_session_flush(session);
+    fr_diags_free(session->context.diags);
+    fr_pool_free(session->context.pool);
+}
+
+/// Errors only, for -q.
+static FrDiags *errors_of(const FrDiags *diags) {
+    FrDiags *errors = fr_diags_new();
+    for (size_t i = 0; i < fr_diags_count(diags); i++) {
+        const FrDiag *diag = fr_diags_get(diags, i);
+        if (diag->severity == FR_ERROR) {
+            fr_diags_add(errors, FR_ERROR, diag->code, diag->span, "%s", diag->text);
+        }
+    }
+    return errors;
+}
+
+void cli_session_flush(CliSession *session) {
+    FrDiags *all = session->context.diags;
+    FrDiags *shown = session->options->is_quiet ? errors_of(all) : NULL;
+    const FrDiags *printed = shown == NULL ? all : shown;
+    GString *text = g_string_new(NULL);
+    if (session->options->is_diag_json) {
+        fr_diags_print_json(printed, text);
+        if (text->len > 0 && text->str[text->len - 1] != '\n') {
+            g_string_append_c(text, '\n');
+        }
+    } else {
+        fr_diags_print(printed, text);
+    }
+    if (fr_diags_count(printed) > 0) {
+        fwrite(text->str, 1, text->len, stderr);
+    }
+    g_string_free(text, TRUE);
+    fr_diags_free(shown);
+    fr_diags_free(all);
+    session->context.diags = fr_diags_new();
+}
+
+FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **document) {
+    double began = cli_now();
+    FrStatus status = fr_document_load(path, &session->context, document);
+    for (guint i = 0; i < session->options->sets->len && status == FR_OK; i++) {
+        const char *set = g_ptr_array_index(session->options->sets, i);
+        const char *equals = strchr(set, '=');
+        char *name = g_strndup(set, (gsize)(equals - set));
+        status = fr_document_set(*document, name, equals + 1, &session->context);
+        g_free(name);
+    }
+    if (status != FR_OK) {
+        fr_document_free(*document);
+        *document = NULL;
+    }
+    session->read_seconds += cli_now() - began;
+    return status;
+}
+
+FrStatus cli_session_build(CliSession *session, const char *path, FrDocument **document,
+                           FrScene **scene) {
+    *scene = NULL;
+    FrStatus status = cli_session_read(session, path, document);
+    if (status != FR_OK) {
+        return status;
+    }
+    double began = cli_now();
+    status = fr_scene_build(*document, session->options->seed, &session->context, scene);
+    session->build_seconds += cli_now() - began;
+    if (status != FR_OK) {
+        fr_document_free(*document);
+        *document = NULL;
+    }
+    return status;
+}
+
+FrStatus cli_session_save(CliSession *session, const char *path, const void *data, size_t size) {
+    GError *error = NULL;
+    if (g_file_set_contents_full(path, data, (gssize)size, G_FILE_SET_CONTENTS_CONSISTENT, 0666,
+                                 &error)) {
+        return FR_OK;
+    }
+    fr_diags_add(session->context.diags, FR_ERROR, "write", (FrSpan){0}, "%s", error->message);
+    g_error_free(error);
+    return FR_ERR_MACHINE;
+}

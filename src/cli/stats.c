@@ -1,0 +1,114 @@
+/// --stats: one JSON object. What does not apply is left out.
+#include "cli/cli.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+/// Counts of a scene, each plant as often as it stands there.
+typedef struct Totals {
+    uint64_t instances, plants, axes, nodes, organs, shapes;
+    json_t *by_component;
+} Totals;
+
+static void add_component(json_t *object, const char *id, uint64_t count) {
+    json_int_t before = json_integer_value(json_object_get(object, id));
+    json_object_set_new(object, id, json_integer(before + (json_int_t)count));
+}
+
+static Totals count_scene(const FrScene *scene) {
+    Totals totals = {.plants = scene->stands->len, .by_component = json_object()};
+    for (guint i = 0; i < scene->stands->len; i++) {
+        uint32_t index = g_array_index(scene->stands, FrStand, i).plant;
+        const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, index);
+        const FrPlant *plant = built->plant;
+        totals.instances += built->instances;
+        totals.axes += plant->axes.count;
+        totals.nodes += plant->nodes.count;
+        totals.organs += plant->organs.count;
+        for (guint c = 0; c < plant->components->len; c++) {
+            add_component(totals.by_component, g_array_index(plant->components, FrComponent, c).id,
+                          built->by_component[c]);
+        }
+    }
+    for (guint i = 0; i < scene->plants->len; i++) {
+        totals.shapes += g_array_index(scene->plants, FrScenePlant, i).plant->shapes->len;
+    }
+    return totals;
+}
+
+static void set_count(json_t *object, const char *key, uint64_t count) {
+    json_object_set_new(object, key, json_integer((json_int_t)count));
+}
+
+static void set_text(json_t *object, const char *key, const char *text) {
+    json_object_set_new(object, key, json_string(text));
+}
+
+static json_t *seconds_of(const CliSession *session, const FrIoStats *io) {
+    json_t *seconds = json_object();
+    json_object_set_new(seconds, "read", json_real(session->read_seconds));
+    json_object_set_new(seconds, "build", json_real(session->build_seconds));
+    if (io != NULL) {
+        json_object_set_new(seconds, "skin", json_real(io->skin_seconds));
+        json_object_set_new(seconds, "write", json_real(io->write_seconds));
+    }
+    if (session->render_seconds > 0) {
+        json_object_set_new(seconds, "render", json_real(session->render_seconds));
+    }
+    json_object_set_new(seconds, "total", json_real(cli_now() - session->began));
+    return seconds;
+}
+
+static uint64_t peak_bytes(void) {
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
+}
+
+static json_t *make_stats(const CliSession *session, const char *document, const FrScene *scene,
+                          const FrIoStats *io) {
+    Totals totals = count_scene(scene);
+    json_t *stats = json_object();
+    set_text(stats, "frond", FR_VERSION);
+    char *name = g_utf8_make_valid(document, -1);
+    set_text(stats, "document", name);
+    g_free(name);
+    set_count(stats, "seed", scene->seed);
+    set_count(stats, "threads", (uint64_t)fr_pool_threads(session->context.pool));
+    char digest[17];
+    g_snprintf(digest, sizeof digest, "%016" G_GINT64_MODIFIER "x", fr_scene_digest(scene));
+    set_text(stats, "digest", digest);
+    set_count(stats, "instances", totals.instances);
+    json_object_set_new(stats, "by_component", totals.by_component);
+    set_count(stats, "plants", totals.plants);
+    set_count(stats, "axes", totals.axes);
+    set_count(stats, "nodes", totals.nodes);
+    set_count(stats, "organs", totals.organs);
+    set_count(stats, "shapes", totals.shapes);
+    if (io != NULL) {
+        set_count(stats, "meshes", io->meshes);
+        set_count(stats, "vertices", io->vertices);
+        set_count(stats, "triangles", io->triangles);
+    }
+    json_object_set_new(stats, "seconds", seconds_of(session, io));
+    set_count(stats, "peak_bytes", peak_bytes());
+    return stats;
+}
+
+FrStatus cli_stats_write(CliSession *session, const char *document, const FrScene *scene,
+                         const FrIoStats *io) {
+    json_t *stats = make_stats(session, document, scene, io);
+    char *text = json_dumps(stats, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+    json_decref(stats);
+    FrStatus status = FR_OK;
+    if (strcmp(session->options->stats, "-") == 0) {
+        printf("%s\n", text);
+    } else {
+        char *lines = g_strconcat(text, "\n", NULL);
+        status = cli_session_save(session, session->options->stats, lines, strlen(lines));
+        g_free(lines);
+    }
+    free(text);
+    return status;
+}

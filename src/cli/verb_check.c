@@ -1,0 +1,46 @@
+/// frond check: what is wrong with documents. They are also grown, for much is known only then.
+#include "cli/cli.h"
+
+/// Pictures that a material takes from files can be read.
+static FrStatus check_pictures(CliSession *session, const FrDocument *document) {
+    FrStatus worst = FR_OK;
+    const GPtrArray *materials = fr_document_materials(document);
+    for (guint i = 0; i < materials->len; i++) {
+        FrMaterial *material = g_ptr_array_index(materials, i);
+        const FrMaterialParams *params = fr_material_params(material);
+        const char *files[FR_MAP_COUNT] = {[FR_MAP_COLOUR] = params->picture,
+                                           [FR_MAP_NORMAL] = params->normal_map,
+                                           [FR_MAP_ROUGHNESS] = params->roughness_map};
+        for (FrMap map = 0; map < FR_MAP_COUNT; map++) {
+            FrStatus status = FR_OK;
+            if (files[map] != NULL) {
+                fr_material_image(material, map, &session->context, &status);
+            }
+            worst = MAX(worst, status);
+        }
+    }
+    return worst;
+}
+
+FrStatus cli_check(CliSession *session) {
+    const GPtrArray *files = session->options->files;
+    FrStatus worst = FR_OK;
+    for (guint i = 0; i < files->len && worst != FR_CANCELLED; i++) {
+        FrDocument *document;
+        FrStatus status = cli_session_read(session, g_ptr_array_index(files, i), &document);
+        if (status == FR_OK) {
+            status = check_pictures(session, document);
+            FrScene *scene = NULL;
+            // A document may hold materials and curves only.
+            if (status == FR_OK && fr_document_plants(document)->len > 0) {
+                status =
+                    fr_scene_build(document, session->options->seed, &session->context, &scene);
+            }
+            fr_scene_free(scene);
+        }
+        cli_session_flush(session);
+        fr_document_free(document);
+        worst = MAX(worst, status);
+    }
+    return worst;
+}

@@ -1,0 +1,213 @@
+/// frond info: what is in a document or a model.
+#include "cli/cli.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/// One plant of a document, grown, with its i-tree.
+typedef struct Grown {
+    const FrPlantDef *definition;
+    FrPlant *plant;
+    FrPgraphCounts counts;
+    CliChains *chains;
+    uint64_t seed;
+} Grown;
+
+static void clear_grown(Grown *grown) {
+    fr_plant_free(grown->plant);
+    g_free(grown->counts.by_component);
+    g_free(grown->counts.parent);
+    g_free(grown->counts.component);
+    g_free(grown->chains);
+}
+
+static FrStatus grow(const CliSession *session, const FrDocument *document,
+                     const FrPlantDef *definition, Grown *grown) {
+    int64_t seed = session->options->seed;
+    *grown =
+        (Grown){.definition = definition, .seed = seed < 0 ? definition->seed : (uint64_t)seed};
+    FrPgraph *reseeded = seed < 0 ? NULL : fr_document_reseed(document, definition, (uint64_t)seed);
+    uint32_t wanted = 0; // any address asks for the i-tree
+    grown->counts.parent = &wanted;
+    FrStatus status = fr_pgraph_build(reseeded == NULL ? definition->pgraph : reseeded,
+                                      &session->context, &grown->plant, &grown->counts);
+    fr_pgraph_free(reseeded);
+    if (grown->counts.parent == &wanted) {
+        grown->counts.parent = NULL;
+    }
+    if (status == FR_OK) {
+        grown->chains = cli_chains_count(&grown->counts, fr_pgraph_count(definition->pgraph));
+    }
+    return status;
+}
+
+static const char *kind_name(const FrPgraph *graph, uint32_t component) {
+    return fr_pgraph_table(fr_pgraph_kind(graph, component))->element;
+}
+
+/// "3 chains of 3", "40 chains of 2 to 5", or "" for what is in no recursion.
+static char *chains_text(const CliChains *chains) {
+    if (chains->longest <= 1) {
+        return g_strdup("");
+    }
+    char *count = cli_count_text(chains->count);
+    const char *noun = chains->count == 1 ? "chain" : "chains";
+    char *text =
+        chains->shortest == chains->longest
+            ? g_strdup_printf("%s %s of %u", count, noun, chains->longest)
+            : g_strdup_printf("%s %s of %u to %u", count, noun, chains->shortest, chains->longest);
+    g_free(count);
+    return text;
+}
+
+static void print_components(const Grown *grown) {
+    const FrPgraph *graph = grown->definition->pgraph;
+    printf("  %-20s %-10s %12s\n", "component", "kind", "instances");
+    for (uint32_t i = 0; i < fr_pgraph_count(graph); i++) {
+        char *count = cli_count_text(grown->counts.by_component[i]);
+        char *chains = chains_text(&grown->chains[i]);
+        printf("  %-20s %-10s %12s%s%s\n", fr_pgraph_id(graph, i), kind_name(graph, i), count,
+               *chains == '\0' ? "" : "  in ", chains);
+        g_free(chains);
+        g_free(count);
+    }
+}
+
+static void print_plant(const Grown *grown) {
+    char *instances = cli_count_text(grown->counts.instances);
+    char *axes = cli_count_text(grown->plant->axes.count);
+    char *nodes = cli_count_text(grown->plant->nodes.count);
+    char *organs = cli_count_text(grown->plant->organs.count);
+    printf("plant %s, seed %" G_GUINT64_FORMAT ": %s instances, %s axes, %s nodes, %s organs of "
+           "%u shapes, digest %016" G_GINT64_MODIFIER "x\n",
+           grown->definition->id, grown->seed, instances, axes, nodes, organs,
+           grown->plant->shapes->len, fr_plant_digest(grown->plant));
+    g_free(instances);
+    g_free(axes);
+    g_free(nodes);
+    g_free(organs);
+    print_components(grown);
+}
+
+static json_t *components_json(const Grown *grown) {
+    const FrPgraph *graph = grown->definition->pgraph;
+    json_t *components = json_array();
+    for (uint32_t i = 0; i < fr_pgraph_count(graph); i++) {
+        const CliChains *chains = &grown->chains[i];
+        json_t *component =
+            json_pack("{s:s, s:s, s:I}", "id", fr_pgraph_id(graph, i), "kind", kind_name(graph, i),
+                      "instances", (json_int_t)grown->counts.by_component[i]);
+        if (chains->longest > 1) {
+            json_object_set_new(component, "chains",
+                                json_pack("{s:I, s:I, s:I}", "count", (json_int_t)chains->count,
+                                          "shortest", (json_int_t)chains->shortest, "longest",
+                                          (json_int_t)chains->longest));
+        }
+        json_array_append_new(components, component);
+    }
+    return components;
+}
+
+static json_t *plant_json(const Grown *grown) {
+    char digest[17];
+    g_snprintf(digest, sizeof digest, "%016" G_GINT64_MODIFIER "x", fr_plant_digest(grown->plant));
+    return json_pack(
+        "{s:s, s:I, s:s, s:I, s:I, s:I, s:I, s:I, s:o}", "id", grown->definition->id, "seed",
+        (json_int_t)grown->seed, "digest", digest, "instances", (json_int_t)grown->counts.instances,
+        "axes", (json_int_t)grown->plant->axes.count, "nodes",
+        (json_int_t)grown->plant->nodes.count, "organs", (json_int_t)grown->plant->organs.count,
+        "shapes", (json_int_t)grown->plant->shapes->len, "components", components_json(grown));
+}
+
+static FrStatus describe_plants(CliSession *session, const FrDocument *document, json_t *plants) {
+    const GPtrArray *definitions = fr_document_plants(document);
+    FrStatus status = FR_OK;
+    for (guint i = 0; i < definitions->len && status == FR_OK; i++) {
+        Grown grown;
+        status = grow(session, document, g_ptr_array_index(definitions, i), &grown);
+        if (status == FR_OK && plants != NULL) {
+            json_array_append_new(plants, plant_json(&grown));
+        } else if (status == FR_OK) {
+            print_plant(&grown);
+        }
+        clear_grown(&grown);
+    }
+    return status;
+}
+
+static void print_names(const char *heading, const GPtrArray *things,
+                        const char *(*name)(const void *thing)) {
+    for (guint i = 0; i < things->len; i++) {
+        printf("%s%s", i == 0 ? heading : ", ", name(g_ptr_array_index(things, i)));
+    }
+    printf("%s", things->len > 0 ? "\n" : "");
+}
+
+static json_t *names_json(const GPtrArray *things, const char *(*name)(const void *thing)) {
+    json_t *names = json_array();
+    for (guint i = 0; i < things->len; i++) {
+        json_array_append_new(names, json_string(name(g_ptr_array_index(things, i))));
+    }
+    return names;
+}
+
+static const char *material_name(const void *thing) {
+    return fr_material_name(thing);
+}
+
+static const char *view_name(const void *thing) {
+    const char *name = ((const FrViewParams *)thing)->name;
+    return name == NULL ? "" : name;
+}
+
+static FrStatus describe_as_text(CliSession *session, const FrDocument *document) {
+    char *title = fr_document_title(document);
+    printf("%s%s%s\n", fr_document_name(document), title == NULL ? "" : ": ",
+           title == NULL ? "" : title);
+    g_free(title);
+    FrStatus status = describe_plants(session, document, NULL);
+    if (status == FR_OK) {
+        print_names("materials: ", fr_document_materials(document), material_name);
+        print_names("views: ", fr_document_views(document), view_name);
+        guint places = fr_document_places(document)->len;
+        if (places > 0) {
+            printf("scene: %u %s\n", places, places == 1 ? "plant stands" : "plants stand");
+        }
+    }
+    return status;
+}
+
+static FrStatus describe_as_json(CliSession *session, const FrDocument *document) {
+    json_t *plants = json_array();
+    FrStatus status = describe_plants(session, document, plants);
+    char *title = fr_document_title(document);
+    char *name = g_utf8_make_valid(fr_document_name(document), -1);
+    json_t *info =
+        json_pack("{s:s, s:s?, s:o, s:o, s:o, s:I}", "document", name, "title", title, "plants",
+                  plants, "materials", names_json(fr_document_materials(document), material_name),
+                  "views", names_json(fr_document_views(document), view_name), "places",
+                  (json_int_t)fr_document_places(document)->len);
+    if (status == FR_OK) {
+        json_dumpf(info, stdout, JSON_INDENT(2));
+        printf("\n");
+    }
+    json_decref(info);
+    g_free(title);
+    g_free(name);
+    return status;
+}
+
+FrStatus cli_info(CliSession *session) {
+    const char *path = g_ptr_array_index(session->options->files, 0);
+    if (cli_is_model(path)) {
+        return cli_model_info(session, path);
+    }
+    FrDocument *document;
+    FrStatus status = cli_session_read(session, path, &document);
+    if (status == FR_OK) {
+        status = session->options->is_json ? describe_as_json(session, document)
+                                           : describe_as_text(session, document);
+    }
+    fr_document_free(document);
+    return status;
+}
