@@ -17,10 +17,9 @@ static inline vec3s fr_turned(versors q, vec3s point) {
 
 /// `start` plus `length` along the z axis of `frame`.
 static inline vec3s fr_advanced(vec3s start, versors frame, float length) {
-    float twice = 2.0f * length;
-    return (vec3s){{start.x + twice * (frame.x * frame.z + frame.w * frame.y),
-                    start.y + twice * (frame.y * frame.z - frame.w * frame.x),
-                    start.z + length - twice * (frame.x * frame.x + frame.y * frame.y)}};
+    vec3s heading = fr_frame_heading(frame);
+    return (vec3s){
+        {start.x + length * heading.x, start.y + length * heading.y, start.z + length * heading.z}};
 }
 
 /// Brings position and frame of one node up to date from its parent's.

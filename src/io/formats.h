@@ -1,0 +1,16 @@
+/// @file formats.h
+/// One function a file format. `stats` is zeroed by the caller.
+#pragma once
+
+#include "frond/io.h"
+
+FrStatus fr_glb_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                      const FrContext *context, FrIoStats *stats);
+FrStatus fr_gltf_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                       const FrContext *context, FrIoStats *stats);
+FrStatus fr_obj_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                      const FrContext *context, FrIoStats *stats);
+FrStatus fr_ply_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                      const FrContext *context, FrIoStats *stats);
+FrStatus fr_stl_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                      const FrContext *context, FrIoStats *stats);

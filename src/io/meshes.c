@@ -1,0 +1,103 @@
+#include "io/meshes.h"
+
+#include <math.h>
+
+const FrPlant *fr_io_plant(const FrScene *scene, uint32_t plant) {
+    return g_array_index(scene->plants, FrScenePlant, plant).plant;
+}
+
+const FrStand *fr_io_stand(const FrScene *scene, guint stand) {
+    return &g_array_index(scene->stands, FrStand, stand);
+}
+
+uint32_t fr_io_stand_count(const FrScene *scene, uint32_t plant) {
+    uint32_t count = 0;
+    for (guint i = 0; i < scene->stands->len; i++) {
+        count += fr_io_stand(scene, i)->plant == plant;
+    }
+    return count;
+}
+
+static void count_mesh(FrIoCount *count, const FrMesh *mesh, uint32_t stands) {
+    uint64_t triangles = mesh->index_count / 3;
+    count->meshes += mesh->index_count > 0;
+    count->vertices = fr_count_add(count->vertices, mesh->vertex_count);
+    count->triangles = fr_count_add(count->triangles, triangles);
+    count->vertices_everywhere =
+        fr_count_add(count->vertices_everywhere, fr_count_multiply(mesh->vertex_count, stands));
+    count->triangles_everywhere =
+        fr_count_add(count->triangles_everywhere, fr_count_multiply(triangles, stands));
+}
+
+FrStatus fr_io_meshes_make(FrIoMeshes *meshes, const FrScene *scene, const FrSkinParams *skin,
+                           FrUpAxis up, bool expands, const FrContext *context) {
+    *meshes = (FrIoMeshes){.meshes = g_new0(FrMesh *, MAX(scene->plants->len, 1)),
+                           .length = scene->plants->len};
+    FrStatus status = FR_OK;
+    for (uint32_t p = 0; p < meshes->length && status == FR_OK; p++) {
+        uint32_t stands = fr_io_stand_count(scene, p);
+        if (stands == 0) {
+            continue;
+        }
+        const FrPlant *plant = fr_io_plant(scene, p);
+        status = fr_skin_plant(plant, skin, up, context, &meshes->meshes[p]);
+        if (status == FR_OK) {
+            count_mesh(&meshes->count, meshes->meshes[p], stands);
+            status = fr_limit_check(
+                expands ? meshes->count.triangles_everywhere : meshes->count.triangles,
+                context->limits.triangles, "triangles", plant->name, (FrSpan){0}, context->diags);
+        }
+    }
+    if (status != FR_OK) {
+        fr_io_meshes_clear(meshes);
+    }
+    return status;
+}
+
+void fr_io_meshes_clear(FrIoMeshes *meshes) {
+    for (uint32_t p = 0; p < meshes->length; p++) {
+        fr_mesh_free(meshes->meshes[p]);
+    }
+    g_free(meshes->meshes);
+    *meshes = (FrIoMeshes){0};
+}
+
+FrPose fr_io_pose(const FrStand *stand, FrUpAxis up) {
+    FrPose pose = {
+        .at = {stand->at[0], stand->at[1], stand->at[2]},
+        .cosine = cos(stand->turn),
+        .sine = sin(stand->turn),
+        .scale = stand->scale,
+        .up = up,
+    };
+    if (up == FR_UP_Y) {
+        pose.at[1] = stand->at[2];
+        pose.at[2] = -stand->at[1];
+    }
+    return pose;
+}
+
+static void turned(const FrPose *pose, const float from[3], double to[3]) {
+    if (pose->up == FR_UP_Z) {
+        to[0] = pose->cosine * (double)from[0] - pose->sine * (double)from[1];
+        to[1] = pose->sine * (double)from[0] + pose->cosine * (double)from[1];
+        to[2] = (double)from[2];
+    } else {
+        to[0] = pose->cosine * (double)from[0] + pose->sine * (double)from[2];
+        to[1] = (double)from[1];
+        to[2] = -pose->sine * (double)from[0] + pose->cosine * (double)from[2];
+    }
+}
+
+FrVertex fr_io_posed(const FrPose *pose, const FrVertex *vertex) {
+    double position[3];
+    double normal[3];
+    turned(pose, vertex->position, position);
+    turned(pose, vertex->normal, normal);
+    FrVertex posed = *vertex;
+    for (int k = 0; k < 3; k++) {
+        posed.position[k] = (float)(position[k] * pose->scale + pose->at[k]);
+        posed.normal[k] = (float)normal[k];
+    }
+    return posed;
+}
