@@ -15,10 +15,14 @@ static int wrap(int value, int period) {
 }
 
 static float corner(FrKey key, int i, int j, float x, float y) {
-    uint64_t bits = fr_random_bits(key, (uint32_t)i, (uint32_t)j);
-    float gx = (float)(bits >> 40) * 0x1.0p-23f - 1.0f;
-    float gy = (float)(bits & 0xffffff) * 0x1.0p-23f - 1.0f;
-    return gx * x + gy * y;
+    static const float directions[16][2] = {
+        {1.0f, 0.0f},  {0.924f, 0.383f},   {0.707f, 0.707f},   {0.383f, 0.924f},
+        {0.0f, 1.0f},  {-0.383f, 0.924f},  {-0.707f, 0.707f},  {-0.924f, 0.383f},
+        {-1.0f, 0.0f}, {-0.924f, -0.383f}, {-0.707f, -0.707f}, {-0.383f, -0.924f},
+        {0.0f, -1.0f}, {0.383f, -0.924f},  {0.707f, -0.707f},  {0.924f, -0.383f},
+    };
+    const float *gradient = directions[fr_random_bits(key, (uint32_t)i, (uint32_t)j) >> 60];
+    return gradient[0] * x + gradient[1] * y;
 }
 
 static float fade(float t) {
@@ -36,14 +40,16 @@ float fr_bark_noise(FrKey key, float u, float v, int across, int along) {
     float top0 = corner(key, i0, j0, x, y), top1 = corner(key, i1, j0, x - 1, y);
     float low0 = corner(key, i0, j1, x, y - 1), low1 = corner(key, i1, j1, x - 1, y - 1);
     float top = top0 + sx * (top1 - top0), low = low0 + sx * (low1 - low0);
-    return 1.6f * (top + sy * (low - top));
+    return 1.35f * (top + sy * (low - top));
 }
 
 float fr_bark_fractal(FrKey key, float u, float v, int across, int along, int octaves) {
     float sum = 0, strength = 0.6f;
     for (int octave = 0; octave < octaves; octave++) {
         FrKey own = fr_key_child(key, (uint64_t)octave);
-        sum += strength * fr_bark_noise(own, u, v, across << octave, along << octave);
+        // Noise vanishes on its grid; shifted, the grids of the octaves do not coincide.
+        float du = (float)fr_random(own, UINT32_MAX, 0), dv = (float)fr_random(own, UINT32_MAX, 1);
+        sum += strength * fr_bark_noise(own, u + du, v + dv, across << octave, along << octave);
         strength *= 0.5f;
     }
     return sum;

@@ -82,7 +82,7 @@ static void paint_row(FrTexture *texture, int row, void *data) {
 
 void fr_texture_bark_furrowed(FrTexture *texture) {
     Furrowed bark = {.key = texture->key};
-    fr_bark_cells_init(&bark.ridges, child(&bark, KEY_RIDGES), 10, 3, 0.85f);
+    fr_bark_cells_init(&bark.ridges, child(&bark, KEY_RIDGES), 12, 3, 0.85f);
     fr_bark_cells_init(&bark.cracks, child(&bark, KEY_CRACKS), 16, 14, 0.95f);
     bark.top = fr_texture_base_colour(texture->params, (vec3s){{0.47f, 0.41f, 0.345f}});
     if (!fr_texture_second_colour(texture->params, &bark.deep)) {

@@ -76,7 +76,8 @@ static void paint_row(FrTexture *texture, int row, void *data) {
         float pore, lip;
         pores_at(bark, u, v + bend, edge, &pore, &lip);
         float stretch = fr_bark_fractal(child(bark, KEY_STRETCH), u, v + bend, 7, 70, 3);
-        float skin = fr_bark_fractal(child(bark, KEY_SKIN), u, v, 28, 36, 4);
+        // Sheared, which keeps the period, so that the noises' grids do not show as a weave.
+        float skin = fr_bark_fractal(child(bark, KEY_SKIN), u + v, v - u, 18, 22, 5);
         float tone = fr_bark_fractal(child(bark, KEY_TONE), u, v + bend, 5, 6, 6);
         float patch = fr_bark_smooth(0.12f, 0.34f, tone + 0.12f * skin);
         float brightness = 1.0f + 0.13f * stretch + 0.2f * skin + 0.25f * tone - 0.22f * patch;
@@ -89,7 +90,7 @@ static void paint_row(FrTexture *texture, int row, void *data) {
         }
         texel->alpha = 1;
         texel->height =
-            0.0022f * lip - 0.0030f * pore + 0.0006f * stretch + 0.0013f * skin + 0.004f * tone;
+            0.0022f * lip - 0.0030f * pore + 0.0006f * stretch + 0.0009f * skin + 0.004f * tone;
         texel->roughness = CLAMP(0.8f + 0.18f * pore + 0.08f * skin, 0.0f, 1.0f);
     }
 }

@@ -86,8 +86,8 @@ static uint8_t byte_of(float value) {
     return (uint8_t)(glm_clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
-/// Slope of the height field by Sobel's operator; rows run downwards, the map's green upwards.
-static vec3s normal_at(const FrTexture *texture, int x, int y) {
+/// By the operator of Sobel; rows run downwards, the map's green upwards.
+vec3s fr_texture_normal(const FrTexture *texture, int x, int y) {
     float h[3][3];
     for (int j = 0; j < 3; j++) {
         for (int i = 0; i < 3; i++) {
@@ -110,7 +110,7 @@ static void write_row(FrTexture *texture, int row, void *data) {
         uint8_t *rgb = colour->pixels + (start + x) * colour->channels;
         uint8_t *normal = maps[FR_MAP_NORMAL]->pixels + (start + x) * 3;
         uint8_t *rough = maps[FR_MAP_ROUGHNESS]->pixels + (start + x) * 3;
-        vec3s n = normal_at(texture, (int)x, row);
+        vec3s n = fr_texture_normal(texture, (int)x, row);
         for (int c = 0; c < 3; c++) {
             rgb[c] = byte_of(fr_colour_srgb(texel->colour[c]));
             normal[c] = byte_of(0.5f + 0.5f * n.raw[c]);

@@ -33,6 +33,9 @@ void fr_texture_rows(FrTexture *texture, FrTextureRowFn row, void *data);
 /// The texel at (x, y), which wraps around if the texture is tiled and is clamped otherwise.
 const FrTexel *fr_texture_at(const FrTexture *texture, int x, int y);
 
+/// Unit normal of the height field at a texel: x right, y up, z out of the picture.
+vec3s fr_texture_normal(const FrTexture *texture, int x, int y);
+
 // ---- the kinds, each in its own file ----------------------------------------------------------
 
 void fr_texture_leaf(FrTexture *texture);
