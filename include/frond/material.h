@@ -77,7 +77,7 @@ FR_API vec3s fr_material_tint(const FrMaterial *material);
 
 typedef enum FrMap {
     FR_MAP_COLOUR,    ///< RGB or RGBA, sRGB; colour dilated under transparent pixels
-    FR_MAP_NORMAL,    ///< RGB, linear, +Y up
+    FR_MAP_NORMAL,    ///< RGB, linear, +Y up; whoever shows it multiplies x and y by `relief`
     FR_MAP_ROUGHNESS, ///< RGB, linear: G multiplies `roughness`, B metallic 0, R 255
     FR_MAP_COUNT
 } FrMap;

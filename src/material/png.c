@@ -84,7 +84,8 @@ static void flush_nothing(png_structp png) {
 static void fail(png_structp png, png_const_charp message) {
     (void)png;
     (void)message;
-    FR_ASSERT(!"libpng cannot write");
+    const bool libpng_can_write = false;
+    FR_ASSERT(libpng_can_write);
 }
 
 static void ignore(png_structp png, png_const_charp message) {

@@ -96,7 +96,7 @@ vec3s fr_texture_normal(const FrTexture *texture, int x, int y) {
     }
     float right = h[0][2] + 2 * h[1][2] + h[2][2] - h[0][0] - 2 * h[1][0] - h[2][0];
     float down = h[2][0] + 2 * h[2][1] + h[2][2] - h[0][0] - 2 * h[0][1] - h[0][2];
-    float scale = (float)texture->size * (float)texture->params->relief / 8.0f;
+    float scale = (float)texture->size / 8.0f;
     return glms_vec3_normalize((vec3s){{-right * scale, down * scale, 1.0f}});
 }
 

@@ -19,6 +19,7 @@ typedef struct Maker {
     FrVenation *venation;
     const FrMaterialParams *params;
     const FrOutline *outline;
+    FrProgress *progress;
     FrKey key;
     float density;
     bool is_closed;
@@ -128,6 +129,9 @@ static void grow_stages(Maker *maker, float finest) {
     float least = fmaxf(0.0135f / maker->density, finest);
     float spacing = coarsest / sqrtf(maker->density);
     for (int stage = 0; stage < MOST_STAGES && spacing >= least; stage++, spacing *= shrink) {
+        if (fr_progress_is_cancelled(maker->progress)) {
+            return;
+        }
         FrVeinGrid veins;
         fr_vein_grid_init(&veins, 0.5f * maker->outline->aspect, spacing);
         for (uint32_t i = 0; i < maker->venation->veins->len; i++) {
@@ -186,7 +190,7 @@ static void set_radii(FrVenation *venation) {
 }
 
 FrVenation *fr_venation_new(const FrMaterialParams *params, const FrOutline *outline, FrKey key,
-                            float finest) {
+                            float finest, FrProgress *progress) {
     FrVenation *venation = g_new0(FrVenation, 1);
     venation->veins = g_array_new(FALSE, FALSE, sizeof(FrVein));
     venation->joins = g_array_new(FALSE, FALSE, sizeof(FrVeinJoin));
@@ -194,6 +198,7 @@ FrVenation *fr_venation_new(const FrMaterialParams *params, const FrOutline *out
         .venation = venation,
         .params = params,
         .outline = outline,
+        .progress = progress,
         .key = key,
         .density = (float)CLAMP(params->vein_density, 0.1, 8),
         .is_closed = params->venation == 1,

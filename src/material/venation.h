@@ -20,7 +20,7 @@ typedef struct FrVenation {
     GArray *joins; ///< FrVeinJoin; empty for open venation
 } FrVenation;
 
-/// `finest`: veins nearer to each other than this are left out.
+/// `finest`: veins nearer to each other than this are left out. Cancelled, it leaves out the rest.
 FrVenation *fr_venation_new(const FrMaterialParams *params, const FrOutline *outline, FrKey key,
-                            float finest);
+                            float finest, FrProgress *progress);
 void fr_venation_free(FrVenation *venation);

@@ -75,7 +75,6 @@ static void test_seed(void) {
 static void test_normals(void) {
     for (int kind = FR_TEXTURE_LEAF; kind <= FR_TEXTURE_BARK_PLATED; kind++) {
         FrMaterialParams params = sheet(kind);
-        params.relief = 4;
         FrImage *maps[FR_MAP_COUNT];
         make(&params, NULL, maps);
         const uint8_t *n = maps[FR_MAP_NORMAL]->pixels;
@@ -267,10 +266,9 @@ static void test_extremes(void) {
         params.tooth_depth = 0.5;
         params.colour = (vec3s){{0, 0, 0}};
         params.second_colour = (vec3s){{1, 1, 1}};
-        params.relief = 0;
         FrImage *maps[FR_MAP_COUNT];
         make(&params, NULL, maps);
-        g_assert_cmpuint(maps[FR_MAP_NORMAL]->pixels[2], ==, 255);
+        g_assert_cmpuint(maps[FR_MAP_NORMAL]->pixels[2], >=, 127);
         drop(maps);
     }
 }

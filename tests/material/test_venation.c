@@ -13,7 +13,7 @@ static FrMaterialParams leaf(int venation) {
 
 static FrVenation *grow(const FrMaterialParams *params, FrOutline **outline) {
     *outline = fr_outline_new(params, 0.6f);
-    return fr_venation_new(params, *outline, fr_key_root(5), 2.5f / 512.0f);
+    return fr_venation_new(params, *outline, fr_key_root(5), 2.5f / 512.0f, NULL);
 }
 
 static const FrVein *vein(const FrVenation *venation, uint32_t index) {
