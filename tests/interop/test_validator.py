@@ -1,0 +1,56 @@
+"""Every glTF file we write passes the Khronos validator with no errors and no warnings."""
+
+import json
+import shutil
+import subprocess
+import sys
+
+import frond_tap as tap
+
+INTEROP = tap.SOURCE / "tests" / "interop"
+
+
+def validate(path):
+    if shutil.which("node") is None:
+        raise tap.Skip("node is not installed")
+    if not (INTEROP / "node_modules" / "gltf-validator").is_dir():
+        raise tap.Skip("gltf-validator is not installed")
+    done = subprocess.run(["node", str(INTEROP / "validate.mjs"), str(path)],
+                          capture_output=True, text=True, check=True)
+    report = json.loads(done.stdout)
+    assert report["errors"] == 0 and report["warnings"] == 0, report
+    return report
+
+
+def valid(example, extension, leaves, lod):
+    def test(folder):
+        path = folder / f"plant{extension}"
+        tap.run("build", example, "-q", "--leaves", leaves, "--lod", lod, "-o", path)
+        validate(path)
+    return test
+
+
+def broken_is_noticed(folder):
+    """The validator itself works: it refuses a file that is cut off."""
+    path = folder / "plant.glb"
+    tap.run("build", tap.EXAMPLES[0], "-q", "--lod", 3, "-o", path)
+    path.write_bytes(path.read_bytes()[:-8])
+    try:
+        validate(path)
+    except AssertionError:
+        return
+    raise AssertionError("the validator passed a file that is cut off")
+
+
+TESTS = [("/interop/validator/a file that is cut off is refused", broken_is_noticed)]
+for example in tap.EXAMPLES:
+    TESTS.append((f"/interop/validator/{example.stem} at full detail is valid",
+                  valid(example, ".glb", "merged", 0)))
+    for leaves in ("nodes", "gpu"):
+        TESTS.append((f"/interop/validator/{example.stem} with leaves as {leaves} is valid",
+                      valid(example, ".glb", leaves, 3)))
+    TESTS.append((f"/interop/validator/{example.stem} as .gltf is valid",
+                  valid(example, ".gltf", "merged", 3)))
+
+if __name__ == "__main__":
+    sys.exit(tap.main(TESTS))

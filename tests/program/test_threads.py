@@ -1,0 +1,60 @@
+"""The same bits for any number of threads: plants, files, pictures."""
+
+import sys
+
+import frond_tap as tap
+
+THREADS = (1, 2, 3, 8)
+
+
+def same(results):
+    assert len(set(results)) == 1, f"for {THREADS} threads: {results}"
+
+
+def equal_digests(example):
+    def test(folder):
+        same([tap.statistics(example, "--threads", n)["digest"] for n in THREADS])
+    return test
+
+
+def equal_models(example):
+    def test(folder):
+        models = []
+        for n in THREADS:
+            path = folder / "plant.glb"
+            tap.run("build", example, "-q", "--lod", 2, "--threads", n, "-o", path)
+            models.append(hash(path.read_bytes()))
+        same(models)
+    return test
+
+
+def equal_pictures(example):
+    def test(folder):
+        pictures = []
+        for n in THREADS:
+            path = folder / "plant.png"
+            tap.run("render", example, "-q", "--size", "48x60", "--samples", 2, "--lod", 3,
+                    "--threads", n, "-o", path)
+            pictures.append(hash(path.read_bytes()))
+        same(pictures)
+    return test
+
+
+def seeds_differ(example):
+    def test(folder):
+        digests = {tap.statistics(example, "--seed", seed)["digest"] for seed in (1, 2)}
+        assert len(digests) == 2
+    return test
+
+
+TESTS = [(f"/program/threads/{example.stem} has one digest", equal_digests(example))
+         for example in tap.EXAMPLES]
+TESTS += [(f"/program/threads/the model of {example.stem} has the same bytes", equal_models(example))
+          for example in tap.EXAMPLES]
+TESTS += [(f"/program/threads/the picture of {example.stem} has the same bytes", equal_pictures(example))
+          for example in tap.EXAMPLES]
+TESTS += [(f"/program/threads/another seed makes another {example.stem}", seeds_differ(example))
+          for example in tap.EXAMPLES if example.stem == "chestnut"]
+
+if __name__ == "__main__":
+    sys.exit(tap.main(TESTS))
