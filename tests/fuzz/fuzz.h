@@ -2,6 +2,7 @@
 /// What a fuzz harness defines: libFuzzer calls it with new inputs, replay.c with known ones.
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
