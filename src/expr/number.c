@@ -1,0 +1,247 @@
+// Numbers that vary: their text form and their value for one instance.
+#include "frond/number.h"
+
+#include "expr/lexer.h"
+#include "expr/tree.h"
+
+#include <math.h>
+#include <string.h>
+
+// The draw of the variance; rand() counts up from 0 and never gets here.
+#define VARIANCE_DRAW UINT32_MAX
+
+FrNumber fr_number_constant(double value, double scale) {
+    return (FrNumber){
+        .from = value,
+        .to = value,
+        .scale = scale,
+        .min = -INFINITY,
+        .max = INFINITY,
+        .is_constant = true,
+        .constant = value * scale,
+    };
+}
+
+FrNumber fr_number_copy(const FrNumber *number) {
+    FrNumber copy = *number;
+    if (copy.function != NULL) {
+        fr_expr_ref(copy.function);
+    }
+    return copy;
+}
+
+void fr_number_clear(FrNumber *number) {
+    fr_expr_unref(number->function);
+    number->function = NULL;
+}
+
+// ---- value ------------------------------------------------------------------------------------
+
+static double limit(const FrNumber *number, double value) {
+    double bounded = value < number->min ? number->min : value > number->max ? number->max : value;
+    // Even where the range is open, sums and units must not carry a value to infinity.
+    bounded *= number->scale;
+    return fabs(bounded) < 1e300 ? bounded : copysign(1e300, bounded);
+}
+
+double fr_number_eval_varying(const FrNumber *number, FrVars *vars, uint32_t purpose,
+                              FrExprFault *fault) {
+    double t = vars->value[FR_VAR_t];
+    double range = number->to - number->from;
+    vars->purpose = purpose;
+    vars->value[FR_VAR_v] = number->from + t * range;
+    double part = number->function != NULL ? fr_expr_eval(number->function, vars, fault) : t;
+    double value = number->from + part * range;
+    if (number->variance != 0) {
+        value += number->variance * fr_random_signed(vars->key, purpose, VARIANCE_DRAW);
+    }
+    return limit(number, value);
+}
+
+// ---- text -------------------------------------------------------------------------------------
+
+typedef struct Reader {
+    const char *text;
+    size_t size, at;
+    FrSpan span;
+    FrDiags *diags;
+} Reader;
+
+static void skip_space(Reader *reader) {
+    while (reader->at < reader->size && g_ascii_isspace(reader->text[reader->at])) {
+        reader->at++;
+    }
+}
+
+static bool accept(Reader *reader, const char *sign) {
+    skip_space(reader);
+    size_t length = strlen(sign);
+    if (strncmp(reader->text + reader->at, sign, length) != 0) {
+        return false;
+    }
+    reader->at += length;
+    return true;
+}
+
+// What stands at the reader, for messages: up to the next space.
+static size_t word_end(const Reader *reader) {
+    size_t end = reader->at;
+    while (end < reader->size && !g_ascii_isspace(reader->text[end])) {
+        end++;
+    }
+    return end;
+}
+
+static bool unexpected(Reader *reader, const char *wanted) {
+    size_t end = word_end(reader);
+    int length = (int)MIN(end - reader->at, 40);
+    FrSpan place = fr_place(reader->span, reader->at, end);
+    if (length == 0) {
+        fr_diags_add(reader->diags, FR_ERROR, "bad-number", place, "%s is missing", wanted);
+    } else {
+        fr_diags_add(reader->diags, FR_ERROR, "bad-number", place, "here should be %s, not '%.*s'",
+                     wanted, length, reader->text + reader->at);
+    }
+    return false;
+}
+
+static bool out_of_range(Reader *reader, const FrNumber *number, double value, size_t begin) {
+    FrSpan place = fr_place(reader->span, begin, reader->at);
+    if (number->max >= 1e300) {
+        fr_diags_add(reader->diags, FR_ERROR, "out-of-range", place, "%g is less than %g", value,
+                     number->min);
+    } else if (number->min <= -1e300) {
+        fr_diags_add(reader->diags, FR_ERROR, "out-of-range", place, "%g is more than %g", value,
+                     number->max);
+    } else {
+        fr_diags_add(reader->diags, FR_ERROR, "out-of-range", place,
+                     "%g is outside the range from %g to %g", value, number->min, number->max);
+    }
+    return false;
+}
+
+// One number with its sign.
+static bool read_value(Reader *reader, double *value) {
+    skip_space(reader);
+    size_t begin = reader->at;
+    char sign = reader->text[begin];
+    if (sign == '-' || sign == '+') {
+        reader->at++;
+    }
+    switch (fr_scan_number(reader->text, reader->size, &reader->at, value)) {
+    case FR_SCAN_NUMBER:
+        break;
+    case FR_SCAN_TOO_LARGE:
+        fr_diags_add(reader->diags, FR_ERROR, "number-too-large",
+                     fr_place(reader->span, begin, reader->at), "this number is too large");
+        return false;
+    case FR_SCAN_NONE:
+        reader->at = begin;
+        return unexpected(reader, "a number (an expression begins with '=')");
+    }
+    if (sign == '-') {
+        *value = -*value;
+    }
+    return true;
+}
+
+static bool read_bounded(Reader *reader, const FrNumber *number, double *value) {
+    skip_space(reader);
+    size_t begin = reader->at;
+    if (!read_value(reader, value)) {
+        return false;
+    }
+    // Negated so that NaN as a limit would not let everything pass.
+    return (*value >= number->min && *value <= number->max) ||
+           out_of_range(reader, number, *value, begin);
+}
+
+static bool read_variance(Reader *reader, FrNumber *number) {
+    skip_space(reader);
+    size_t begin = reader->at;
+    if (!read_value(reader, &number->variance)) {
+        return false;
+    }
+    if (number->variance < 0) {
+        fr_diags_add(reader->diags, FR_ERROR, "out-of-range",
+                     fr_place(reader->span, begin, reader->at),
+                     "a variance is given without a sign: it goes both ways");
+        return false;
+    }
+    return true;
+}
+
+// The rest of the text as a function: a curve's bare name stands for that curve of t.
+static bool read_function(Reader *reader, const FrScope *scope, FrNumber *number) {
+    skip_space(reader);
+    size_t end = reader->size;
+    while (end > reader->at && g_ascii_isspace(reader->text[end - 1])) {
+        end--;
+    }
+    FrSpan place = fr_place(reader->span, reader->at, end);
+    char *text = g_strndup(reader->text + reader->at, end - reader->at);
+    FrVar ignored;
+    FrCurve *curve = fr_variable_find(text, &ignored) ? NULL : fr_scope_find_curve(scope, text);
+    number->function = curve != NULL ? fr_expr_of_curve(curve, text, place)
+                                     : fr_expr_compile(text, place, scope, reader->diags);
+    fr_curve_unref(curve);
+    g_free(text);
+    return number->function != NULL;
+}
+
+static bool read_number(Reader *reader, const FrScope *scope, FrNumber *number) {
+    if (accept(reader, "=")) {
+        number->from = 0;
+        number->to = 1;
+        return read_function(reader, scope, number);
+    }
+    if (!read_bounded(reader, number, &number->from)) {
+        return false;
+    }
+    number->to = number->from;
+    if (accept(reader, "..") && !read_bounded(reader, number, &number->to)) {
+        return false;
+    }
+    if (accept(reader, "~") && !read_variance(reader, number)) {
+        return false;
+    }
+    if (accept(reader, ":")) {
+        return read_function(reader, scope, number);
+    }
+    return reader->at == reader->size ||
+           unexpected(reader, "the end, '..', '~' or ':' (an expression begins with '=')");
+}
+
+// Decides whether every instance has the same value, and works it out.
+static void settle(FrNumber *number, FrSpan span, FrDiags *diags) {
+    double part = 0;
+    bool is_range = number->from != number->to;
+    bool is_fixed = number->function != NULL && fr_expr_is_constant(number->function, &part);
+    number->is_constant = number->variance == 0 && (!is_range || is_fixed);
+    number->constant = limit(number, number->from + part * (number->to - number->from));
+    if (is_fixed) {
+        // Then it fails for every instance or for none, and this is the time to say so.
+        FrExprFault fault = {0};
+        const FrVars none = {0};
+        fr_expr_eval(number->function, &none, &fault);
+        fr_expr_report_fault(&fault, "expression", diags);
+    }
+    if (number->function != NULL && !is_range) {
+        fr_diags_add(diags, FR_WARNING, "function-without-effect", span,
+                     "a function walks a range 'from..to'; a single number it leaves as it is");
+    }
+}
+
+FrStatus fr_number_parse(FrNumber *number, const char *text, FrSpan span, double scale, double min,
+                         double max, const FrScope *scope, FrDiags *diags) {
+    Reader reader = {.text = text, .size = strlen(text), .span = span, .diags = diags};
+    FrNumber parsed = {.scale = scale, .min = min, .max = max};
+    if (!read_number(&reader, scope, &parsed)) {
+        fr_number_clear(&parsed);
+        return FR_ERR_DOCUMENT;
+    }
+    settle(&parsed, span, diags);
+    fr_number_clear(number);
+    *number = parsed;
+    return FR_OK;
+}
