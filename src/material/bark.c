@@ -14,6 +14,11 @@ static int wrap(int value, int period) {
     return rest < 0 ? rest + period : rest;
 }
 
+/// The same for whole numbers in floats, without an integer division in the inner loop.
+static int wrap_whole(float value, float period) {
+    return (int)(value - floorf(value / period) * period);
+}
+
 static float corner(FrKey key, int i, int j, float x, float y) {
     static const float directions[16][2] = {
         {1.0f, 0.0f},  {0.924f, 0.383f},   {0.707f, 0.707f},   {0.383f, 0.924f},
@@ -32,8 +37,8 @@ static float fade(float t) {
 float fr_bark_noise(FrKey key, float u, float v, int across, int along) {
     float x = u * (float)across, y = v * (float)along;
     float fx = floorf(x), fy = floorf(y);
-    int i0 = wrap((int)fx, across), j0 = wrap((int)fy, along);
-    int i1 = (i0 + 1) % across, j1 = (j0 + 1) % along;
+    int i0 = wrap_whole(fx, (float)across), j0 = wrap_whole(fy, (float)along);
+    int i1 = i0 + 1 == across ? 0 : i0 + 1, j1 = j0 + 1 == along ? 0 : j0 + 1;
     x -= fx;
     y -= fy;
     float sx = fade(x), sy = fade(y);
@@ -48,7 +53,7 @@ float fr_bark_fractal(FrKey key, float u, float v, int across, int along, int oc
     for (int octave = 0; octave < octaves; octave++) {
         FrKey own = fr_key_child(key, (uint64_t)octave);
         // Noise vanishes on its grid; shifted, the grids of the octaves do not coincide.
-        float du = (float)fr_random(own, UINT32_MAX, 0), dv = (float)fr_random(own, UINT32_MAX, 1);
+        float du = (float)(own >> 40) * 0x1.0p-24f, dv = (float)(own & 0xffffff) * 0x1.0p-24f;
         sum += strength * fr_bark_noise(own, u + du, v + dv, across << octave, along << octave);
         strength *= 0.5f;
     }
@@ -86,46 +91,54 @@ typedef struct Site {
     size_t cell;
 } Site;
 
-static Site site_at(const FrBarkCells *cells, int column, int row, float x, float y) {
-    size_t cell = (size_t)wrap(row, cells->along) * (size_t)cells->across +
-                  (size_t)wrap(column, cells->across);
-    return (Site){.x = (float)column + cells->sites[2 * cell] - x,
-                  .y = (float)row + cells->sites[2 * cell + 1] - y,
-                  .cell = cell};
+enum { REACH = 2, SIDE = 2 * REACH + 1, SITES = SIDE * SIDE };
+
+/// The sites of the cells around a place; returns the index of the nearest.
+static int sites_around(const FrBarkCells *cells, float x, float y, Site sites[SITES]) {
+    int column = (int)floorf(x) - REACH, row = (int)floorf(y) - REACH;
+    int nearest = 0;
+    float least = INFINITY;
+    for (int j = 0; j < SIDE; j++) {
+        size_t start = (size_t)wrap(row + j, cells->along) * (size_t)cells->across;
+        int wrapped = wrap(column, cells->across);
+        for (int i = 0; i < SIDE; i++) {
+            size_t cell = start + (size_t)wrapped;
+            Site site = {.x = (float)(column + i) + cells->sites[2 * cell] - x,
+                         .y = (float)(row + j) + cells->sites[2 * cell + 1] - y,
+                         .cell = cell};
+            float squared = site.x * site.x + site.y * site.y;
+            sites[j * SIDE + i] = site;
+            if (squared < least) {
+                least = squared;
+                nearest = j * SIDE + i;
+            }
+            wrapped = wrapped + 1 == cells->across ? 0 : wrapped + 1;
+        }
+    }
+    return nearest;
 }
 
 FrBarkPlate fr_bark_plate(const FrBarkCells *cells, float u, float v) {
-    float x = u * (float)cells->across, y = v * (float)cells->along;
-    int column = (int)floorf(x), row = (int)floorf(y);
-    Site nearest = {0};
-    float least = INFINITY;
-    for (int j = -2; j <= 2; j++) {
-        for (int i = -2; i <= 2; i++) {
-            Site site = site_at(cells, column + i, row + j, x, y);
-            float squared = site.x * site.x + site.y * site.y;
-            if (squared < least) {
-                least = squared;
-                nearest = site;
-            }
-        }
-    }
+    const float far = 0.6f; // borders beyond it weigh nothing
+    Site sites[SITES];
+    int own = sites_around(cells, u * (float)cells->across, v * (float)cells->along, sites);
+    Site nearest = sites[own];
     FrBarkPlate plate = {.edge = INFINITY, .random = cells->random[nearest.cell]};
-    float weights = 0, upright = 0, other = 0;
-    for (int j = -2; j <= 2; j++) {
-        for (int i = -2; i <= 2; i++) {
-            Site site = site_at(cells, column + i, row + j, x, y);
-            float dx = site.x - nearest.x, dy = site.y - nearest.y;
-            float apart = sqrtf(dx * dx + dy * dy);
-            if (apart < 1e-4f) {
-                continue;
-            }
-            float edge = 0.5f * ((nearest.x + site.x) * dx + (nearest.y + site.y) * dy) / apart;
-            plate.edge = fminf(plate.edge, edge);
+    float weights = 1e-9f, upright = 0, other = 0;
+    for (int i = 0; i < SITES; i++) {
+        float dx = sites[i].x - nearest.x, dy = sites[i].y - nearest.y;
+        float apart = sqrtf(dx * dx + dy * dy);
+        if (i == own || apart < 1e-4f) {
+            continue;
+        }
+        float edge = 0.5f * ((nearest.x + sites[i].x) * dx + (nearest.y + sites[i].y) * dy) / apart;
+        plate.edge = fminf(plate.edge, edge);
+        if (edge < far) {
             // Weighted over all borders: with the nearest one alone it would jump inside a plate.
-            float weight = edge < 0.6f ? expf(-12.0f * edge) : 1e-6f;
+            float weight = expf(-12.0f * edge) + 1e-6f;
             weights += weight;
             upright += weight * fabsf(dx) / apart;
-            other += weight * cells->random[site.cell];
+            other += weight * cells->random[sites[i].cell];
         }
     }
     plate.upright = upright / weights;

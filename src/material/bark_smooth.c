@@ -9,6 +9,8 @@ enum { KEY_PORES, KEY_SKIN, KEY_TONE, KEY_STRETCH, KEY_PEEL, KEY_EDGE };
 
 enum { PORES = 150 };
 
+static const float most_bend = 0.012f;
+
 typedef struct Pore {
     float u, v;        ///< centre
     float half_length; ///< in u
@@ -48,11 +50,24 @@ static float around(float from, float to) {
     return way - roundf(way);
 }
 
-/// 1 inside a pore, 0 outside its swollen lip; `edge` roughens the outline.
-static void pores_at(const Smooth *bark, float u, float v, float edge, float *pore, float *lip) {
-    *pore = *lip = 0;
+/// The pores that can reach a row of texels, however the row bends.
+static int pores_of_row(const Smooth *bark, float v, const Pore **pores) {
+    int count = 0;
     for (int i = 0; i < PORES; i++) {
-        const Pore *p = &bark->pores[i];
+        const Pore *pore = &bark->pores[i];
+        if (fabsf(around(pore->v, v)) < 5.0f * pore->half_height + most_bend) {
+            pores[count++] = pore;
+        }
+    }
+    return count;
+}
+
+/// 1 inside a pore, 0 outside its swollen lip; `edge` roughens the outline.
+static void pores_at(const Pore *const *pores, int count, float u, float v, float edge, float *pore,
+                     float *lip) {
+    *pore = *lip = 0;
+    for (int i = 0; i < count; i++) {
+        const Pore *p = pores[i];
         float dv = fabsf(around(p->v, v)) / p->half_height;
         if (dv > 5.0f) {
             continue;
@@ -68,13 +83,15 @@ static void pores_at(const Smooth *bark, float u, float v, float edge, float *po
 static void paint_row(FrTexture *texture, int row, void *data) {
     const Smooth *bark = data;
     float v = ((float)row + 0.5f) / (float)texture->size;
+    const Pore *pores[PORES];
+    int pore_count = pores_of_row(bark, v, pores);
     for (int column = 0; column < texture->size; column++) {
         float u = ((float)column + 0.5f) / (float)texture->size;
         FrTexel *texel = &texture->texels[(size_t)row * (size_t)texture->size + (size_t)column];
         float bend = 0.006f * fr_bark_fractal(child(bark, KEY_PEEL), u, v, 5, 5, 3);
         float edge = fr_bark_fractal(child(bark, KEY_EDGE), u, v, 60, 120, 2);
         float pore, lip;
-        pores_at(bark, u, v + bend, edge, &pore, &lip);
+        pores_at(pores, pore_count, u, v + bend, edge, &pore, &lip);
         float stretch = fr_bark_fractal(child(bark, KEY_STRETCH), u, v + bend, 7, 70, 3);
         // Sheared, which keeps the period, so that the noises' grids do not show as a weave.
         float skin = fr_bark_fractal(child(bark, KEY_SKIN), u + v, v - u, 18, 22, 5);
@@ -100,8 +117,12 @@ void fr_texture_bark_smooth(FrTexture *texture) {
     scatter_pores(&bark);
     bark.skin = fr_texture_base_colour(texture->params, (vec3s){{0.55f, 0.525f, 0.475f}});
     if (!fr_texture_second_colour(texture->params, &bark.cork)) {
-        vec3s brown = {{0.10f, 0.066f, 0.043f}};
-        bark.cork = fr_colour_mix(fr_colour_adjust(bark.skin, 0.3f, 1.2f), brown, 0.6f);
+        // Dark on a light skin, pale on a dark one.
+        vec3s dark = {{0.10f, 0.066f, 0.043f}}, pale = {{0.34f, 0.22f, 0.14f}};
+        bool is_dark =
+            0.2126f * bark.skin.x + 0.7152f * bark.skin.y + 0.0722f * bark.skin.z < 0.12f;
+        vec3s tinged = fr_colour_adjust(bark.skin, is_dark ? 1.8f : 0.3f, 1.2f);
+        bark.cork = fr_colour_mix(tinged, is_dark ? pale : dark, 0.6f);
     }
     fr_texture_rows(texture, paint_row, &bark);
 }
