@@ -11,7 +11,12 @@
 #define AIR_RADIUS 6460e3
 #define AIR_SCALE 8000.0
 #define HAZE_SCALE 1200.0
-#define HAZE_ALBEDO 0.92
+#define HAZE_ALBEDO 0.97
+// Vertical optical depth at 550 nm for each unit of turbidity above 1: that of Linke's turbidity 3
+// with 1 cm of water (Ineichen 2008, Conversion Function between the Linke Turbidity and the
+// Atmospheric Water Vapor and Aerosol Content, Solar Energy 82).
+#define HAZE_DEPTH 0.052
+#define HAZE_EXPONENT 1.3 // Ångström's, of continental haze
 #define HAZE_FORWARD 0.76
 #define OBSERVER_HEIGHT 2.0
 #define LAND_ALBEDO 0.2
@@ -194,9 +199,9 @@ FrAtmosphere *fr_atmosphere_new(double turbidity) {
     FrAtmosphere *atmosphere = g_new(FrAtmosphere, 1);
     atmosphere->air = (Rgb){{5.802e-6, 13.558e-6, 33.1e-6}};
     atmosphere->ozone = (Rgb){{0.650e-6, 1.881e-6, 0.085e-6}};
-    // Haze scatters by Ångström's law with exponent 1.
-    double haze = (turbidity - 1.0) * 13.558e-6 * AIR_SCALE / HAZE_SCALE * HAZE_ALBEDO;
-    atmosphere->haze = (Rgb){{haze * 550.0 / 680.0, haze, haze * 550.0 / 440.0}};
+    double haze = (turbidity - 1.0) * HAZE_DEPTH / HAZE_SCALE * HAZE_ALBEDO;
+    atmosphere->haze = (Rgb){
+        {haze * pow(550.0 / 680.0, HAZE_EXPONENT), haze, haze * pow(550.0 / 440.0, HAZE_EXPONENT)}};
     for (int y = 0; y < LIGHT_HEIGHTS; y++) {
         double radius = PLANET_RADIUS + fmax(height_of((double)y / (LIGHT_HEIGHTS - 1)), 0.5);
         for (int x = 0; x < LIGHT_ANGLES; x++) {

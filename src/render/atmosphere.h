@@ -7,7 +7,8 @@
 /// A planet's air: scattering and absorption by height, and tables for one turbidity.
 typedef struct FrAtmosphere FrAtmosphere;
 
-/// `turbidity` is the optical depth of air and haze over that of air alone (1: no haze).
+/// `turbidity` is Linke's: how many atmospheres of clean, dry air would dim the sun as much. 1: no
+/// haze, 3: a clear day.
 FrAtmosphere *fr_atmosphere_new(double turbidity);
 void fr_atmosphere_free(FrAtmosphere *atmosphere);
 /// Part of the sun's light that reaches an observer at the ground; `sun_height` is the sine of the

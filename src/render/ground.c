@@ -42,12 +42,25 @@ void fr_ground_free(FrGround *ground) {
     }
 }
 
-/// The tile, `size` metres wide, at a point; `slope` receives its gradient per cell.
-static float tile_at(const FrGround *ground, float x, float y, float size, float *slope_x,
+/// How the tile is laid: its width in metres and by how much it is turned. No two layers repeat in
+/// the same direction.
+typedef struct Layer {
+    double size, cosine, sine;
+} Layer;
+
+static const Layer grain_layer = {0.61, 0.8, 0.6};
+static const Layer fine_layer = {2.9, 0.923076923076923, -0.384615384615385};
+static const Layer middle_layer = {17.3, 0.28, 0.96};
+static const Layer coarse_layer = {131.0, 0.6, -0.8};
+
+/// The tile at a point; (slope_x, slope_y) receives its gradient per cell, along x and y.
+static float tile_at(const FrGround *ground, float x, float y, Layer layer, float *slope_x,
                      float *slope_y) {
-    double scale = GROUND_CELLS / (double)size;
-    double px = ((double)x + ground->origin[0]) * scale;
-    double py = ((double)y + ground->origin[1]) * scale;
+    double scale = GROUND_CELLS / layer.size;
+    double world_x = ((double)x + ground->origin[0]) * scale;
+    double world_y = ((double)y + ground->origin[1]) * scale;
+    double px = layer.cosine * world_x + layer.sine * world_y;
+    double py = layer.cosine * world_y - layer.sine * world_x;
     double left = floor(px);
     double low = floor(py);
     float fx = (float)(px - left);
@@ -62,8 +75,12 @@ static float tile_at(const FrGround *ground, float x, float y, float size, float
     float b = ground->height[y0 + x1];
     float c = ground->height[y1 + x0];
     float d = ground->height[y1 + x1];
-    *slope_x = (b - a) * (1.0f - fy) + (d - c) * fy;
-    *slope_y = (c - a) * (1.0f - fx) + (d - b) * fx;
+    float slope_u = (b - a) * (1.0f - fy) + (d - c) * fy;
+    float slope_v = (c - a) * (1.0f - fx) + (d - b) * fx;
+    float cosine = (float)layer.cosine;
+    float sine = (float)layer.sine;
+    *slope_x = cosine * slope_u - sine * slope_v;
+    *slope_y = sine * slope_u + cosine * slope_v;
     return (a * (1.0f - fx) + b * fx) * (1.0f - fy) + (c * (1.0f - fx) + d * fx) * fy;
 }
 
@@ -73,15 +90,18 @@ vec3s fr_ground_colour(const FrGround *ground, float x, float y) {
     }
     float sx;
     float sy;
-    float fine = tile_at(ground, x, y, 2.9f, &sx, &sy);
-    float middle = tile_at(ground, y, x, 17.3f, &sx, &sy);
-    float coarse = tile_at(ground, x, y, 131.0f, &sx, &sy);
-    float light = 1.0f + ground->variation * (0.55f * fine + 0.45f * middle + 0.35f * coarse);
-    // Patches drift between drier, redder and fresher, greener ground.
-    float dry = ground->variation * (0.25f * middle + 0.2f * coarse);
-    vec3s colour = glms_vec3_scale(ground->colour, fmaxf(light, 0.2f));
-    colour.r *= 1.0f + 0.5f * dry;
-    colour.b *= 1.0f - 0.3f * dry;
+    float grain = tile_at(ground, x, y, grain_layer, &sx, &sy);
+    float fine = tile_at(ground, x, y, fine_layer, &sx, &sy);
+    float middle = tile_at(ground, x, y, middle_layer, &sx, &sy);
+    float coarse = tile_at(ground, x, y, coarse_layer, &sx, &sy);
+    float light = grain + 0.5f * fine + 0.4f * middle + 0.3f * coarse;
+    vec3s colour = glms_vec3_scale(ground->colour, expf(ground->variation * light));
+    // Patches drift between dry, reddish and fresh, greenish ground.
+    float dry = ground->variation * (0.3f * fine + 0.8f * middle + 0.5f * coarse);
+    colour.r *= 1.0f + 0.35f * dry;
+    colour.g *= 1.0f - 0.1f * dry;
+    colour.b *= 1.0f - 0.2f * dry;
+    colour = glms_vec3_maxv(colour, glms_vec3_zero());
     return glms_vec3_minv(colour, glms_vec3_one());
 }
 
@@ -93,9 +113,9 @@ vec3s fr_ground_normal(const FrGround *ground, float x, float y) {
     float fine_y;
     float coarse_x;
     float coarse_y;
-    tile_at(ground, x, y, 0.83f, &fine_x, &fine_y);
-    tile_at(ground, x, y, 4.7f, &coarse_x, &coarse_y);
-    float strength = 1.6f * ground->variation;
+    tile_at(ground, x, y, grain_layer, &fine_x, &fine_y);
+    tile_at(ground, x, y, fine_layer, &coarse_x, &coarse_y);
+    float strength = 2.5f * ground->variation;
     return glms_vec3_normalize(
         (vec3s){{-strength * (fine_x + coarse_x), -strength * (fine_y + coarse_y), 1.0f}});
 }

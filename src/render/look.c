@@ -40,7 +40,7 @@ FrStatus fr_look_init(FrLook *look, FrMaterial *material, bool is_foliage,
         return FR_OK;
     }
     const FrMaterialParams *params = fr_material_params(material);
-    look->tint = fr_srgb_decode3(params->colour);
+    look->tint = fr_srgb_decode3(fr_material_tint(material));
     look->roughness_factor = (float)params->roughness;
     look->translucency = is_foliage ? (float)params->translucency : 0.0f;
     look->relief = (float)params->relief;

@@ -1,6 +1,6 @@
 // Rendering a scene: tiles of pixels, each pixel done whole by one thread in the order of its
 // samples, so that the picture is the same for any number of threads.
-#include "frond/render.h"
+#include "render/render.h"
 
 #include "render/camera.h"
 #include "render/colour.h"
@@ -18,7 +18,7 @@ enum { TILE = 16, FILTER_STEPS = 64 };
 // Distant ground is hazy from so many camera distances on.
 #define HAZE_DISTANCES 9.0f
 // How far colours are balanced towards the light that falls into the picture being white.
-#define BALANCE_PART 0.55f
+#define BALANCE_PART 0.75f
 
 #define FR_PARAM_STRUCT FrRenderParams
 static const FrParam render_rows[] = {FR_RENDER_PARAMS(FR_PARAM_ROW)};
@@ -194,9 +194,8 @@ static vec3s white_balance(const FrSky *sky) {
     return balance;
 }
 
-static FrStatus render_world(FrWorld *world, const FrViewParams *view, double stops,
-                             const FrRenderParams *params, const FrContext *context,
-                             FrImage **image) {
+FrStatus fr_render_world(FrWorld *world, const FrViewParams *view, double stops,
+                         const FrRenderParams *params, const FrContext *context, FrImage **image) {
     uint32_t width = (uint32_t)params->width;
     uint32_t height = (uint32_t)params->height;
     Job job = {
@@ -243,7 +242,7 @@ FrStatus fr_render(const FrScene *scene, const FrRenderParams *params, const FrS
         status = fr_world_of_scene(scene, skin, context, &world);
     }
     if (status == FR_OK) {
-        status = render_world(world, view, scene->params->exposure, params, context, image);
+        status = fr_render_world(world, view, scene->params->exposure, params, context, image);
     }
     fr_world_free(world);
     return status;

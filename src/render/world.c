@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#define GROUND_VARIATION 0.35f
+#define GROUND_VARIATION 0.6f
 
 // Embree asks from any thread; only reads.
 static bool is_hole(void *user, uint32_t mesh, uint32_t part, uint32_t triangle, float u, float v) {
