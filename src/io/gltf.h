@@ -47,15 +47,19 @@ int fr_gltf_add_accessor(FrGltf *gltf, int view, uint64_t offset, int component_
 /// Accessors of one mesh part.
 typedef struct FrGltfPart {
     int position, normal, uv, indices;
+    int tangent;       ///< −1 until a material needs it
     uint32_t material; ///< of the plant
     bool is_foliage;
+    const FrMesh *mesh;
+    const FrMeshPart *part;
 } FrGltfPart;
 
 /// Views and accessors of all parts that have triangles, into `parts` (room for part_count).
 uint32_t fr_gltf_add_arrays(FrGltf *gltf, const FrMesh *mesh, FrGltfPart *parts);
-/// A mesh of these parts; −1 if there are none. Makes the materials that it needs.
-FrStatus fr_gltf_add_mesh(FrGltf *gltf, const char *name, const FrPlant *plant,
-                          const FrGltfPart *parts, uint32_t count, int *mesh);
+/// A mesh of these parts; −1 if there are none. Makes the materials that it needs, and tangents
+/// where these have a normal map.
+FrStatus fr_gltf_add_mesh(FrGltf *gltf, const char *name, const FrPlant *plant, FrGltfPart *parts,
+                          uint32_t count, int *mesh);
 
 /// Adds materials, textures, images and samplers as members of the asset, from the surfaces.
 /// Pictures go into the buffer, or stay files if `are_files`.

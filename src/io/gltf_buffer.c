@@ -1,6 +1,8 @@
 // The buffer of a glTF asset and what describes it: views, accessors, meshes.
 #include "io/gltf.h"
 
+#include "io/tangents.h"
+
 int fr_gltf_add_view(FrGltf *gltf, const void *data, uint64_t size, int stride, int target) {
     static const char zeros[4];
     FrChunk chunk = {data, (size_t)size};
@@ -65,6 +67,9 @@ uint32_t fr_gltf_add_arrays(FrGltf *gltf, const FrMesh *mesh, FrGltfPart *parts)
         FrGltfPart *made = &parts[count++];
         made->material = part->material;
         made->is_foliage = part->is_foliage;
+        made->mesh = mesh;
+        made->part = part;
+        made->tangent = -1;
         made->position = fr_gltf_add_accessor(gltf, vertices, at, FR_GLTF_FLOAT, n, "VEC3");
         json_t *position = json_array_get(gltf->accessors, (size_t)made->position);
         json_object_set_new(position, "min", triple(part->min));
@@ -79,8 +84,30 @@ uint32_t fr_gltf_add_arrays(FrGltf *gltf, const FrMesh *mesh, FrGltfPart *parts)
     return count;
 }
 
-FrStatus fr_gltf_add_mesh(FrGltf *gltf, const char *name, const FrPlant *plant,
-                          const FrGltfPart *parts, uint32_t count, int *mesh) {
+/// Without tangents each reader would make its own for a normal map, each in its own way.
+static void add_tangents(FrGltf *gltf, FrGltfPart *part) {
+    if (part->tangent < 0) {
+        uint64_t count = part->part->vertex_count;
+        float(*tangents)[4] = fr_tangents_new(part->mesh, part->part, gltf->context);
+        g_ptr_array_add(gltf->kept, tangents);
+        int view = fr_gltf_add_view(gltf, tangents, count * sizeof *tangents, sizeof *tangents,
+                                    FR_GLTF_VERTICES);
+        part->tangent = fr_gltf_add_accessor(gltf, view, 0, FR_GLTF_FLOAT, count, "VEC4");
+    }
+}
+
+static json_t *primitive_of(const FrGltfPart *part, uint32_t surface, bool has_tangents) {
+    json_t *attributes = json_pack("{s:i, s:i, s:i}", "POSITION", part->position, "NORMAL",
+                                   part->normal, "TEXCOORD_0", part->uv);
+    if (has_tangents) {
+        json_object_set_new(attributes, "TANGENT", json_integer(part->tangent));
+    }
+    return json_pack("{s:o, s:i, s:I}", "attributes", attributes, "indices", part->indices,
+                     "material", (json_int_t)surface);
+}
+
+FrStatus fr_gltf_add_mesh(FrGltf *gltf, const char *name, const FrPlant *plant, FrGltfPart *parts,
+                          uint32_t count, int *mesh) {
     *mesh = -1;
     if (count == 0) {
         return FR_OK;
@@ -94,11 +121,12 @@ FrStatus fr_gltf_add_mesh(FrGltf *gltf, const char *name, const FrPlant *plant,
             json_decref(primitives);
             return status;
         }
-        json_array_append_new(primitives,
-                              json_pack("{s:{s:i, s:i, s:i}, s:i, s:I}", "attributes", "POSITION",
-                                        parts[p].position, "NORMAL", parts[p].normal, "TEXCOORD_0",
-                                        parts[p].uv, "indices", parts[p].indices, "material",
-                                        (json_int_t)surface));
+        bool has_tangents =
+            fr_surfaces_get(&gltf->surfaces, surface)->picture[FR_MAP_NORMAL] != FR_NONE;
+        if (has_tangents) {
+            add_tangents(gltf, &parts[p]);
+        }
+        json_array_append_new(primitives, primitive_of(&parts[p], surface, has_tangents));
     }
     json_array_append_new(gltf->meshes, json_pack("{s:o, s:o}", "name", fr_gltf_name(name),
                                                   "primitives", primitives));

@@ -44,8 +44,9 @@ static json_t *material_of(const FrSurface *surface, json_t *textures) {
                             json_pack("{s:i}", "index", texture[FR_MAP_ROUGHNESS]));
     }
     if (texture[FR_MAP_NORMAL] >= 0) {
-        json_object_set_new(material, "normalTexture",
-                            json_pack("{s:i}", "index", texture[FR_MAP_NORMAL]));
+        json_object_set_new(
+            material, "normalTexture",
+            json_pack("{s:i, s:f}", "index", texture[FR_MAP_NORMAL], "scale", params.relief));
     }
     if (surface->has_holes) {
         json_object_set_new(material, "alphaMode", json_string("MASK"));

@@ -182,11 +182,11 @@ static FrStatus make_group_meshes(FrGltf *gltf, const FrPlant *plant, GArray *gr
         if (status != FR_OK) {
             break;
         }
-        FrGltfPart part = arrays->part;
-        part.material = group->material;
+        arrays->part.material = group->material;
         uint32_t first = g_array_index(group->organs, uint32_t, 0);
         char *name = g_strdup_printf("%s %s", plant->name, group_word(plant, first));
-        status = fr_gltf_add_mesh(gltf, name, plant, &part, arrays->part_count, &group->mesh);
+        status =
+            fr_gltf_add_mesh(gltf, name, plant, &arrays->part, arrays->part_count, &group->mesh);
         g_free(name);
         group->triangles = arrays->triangles;
     }

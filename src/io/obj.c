@@ -129,6 +129,14 @@ static void add_picture(FrObj *obj, FrOutput *output, const char *word, uint32_t
     }
 }
 
+static void add_normal_map(FrObj *obj, FrOutput *output, uint32_t picture, double relief) {
+    if (picture != FR_NONE) {
+        fr_output_text(output, "norm -bm ");
+        fr_output_fixed(output, relief, 4);
+        add_picture(obj, output, " ", picture);
+    }
+}
+
 static bool write_library(void *user, int descriptor) {
     FrObj *obj = user;
     FrOutput output;
@@ -146,7 +154,7 @@ static bool write_library(void *user, int descriptor) {
         add_fixed(&output, "Ks", (double[3]){0, 0, 0}, 3, 6);
         add_fixed(&output, "Pr", &params.roughness, 1, 4);
         add_picture(obj, &output, "map_Kd ", surface->picture[FR_MAP_COLOUR]);
-        add_picture(obj, &output, "norm ", surface->picture[FR_MAP_NORMAL]);
+        add_normal_map(obj, &output, surface->picture[FR_MAP_NORMAL], params.relief);
         add_picture(obj, &output, "map_Pr ", surface->picture[FR_MAP_ROUGHNESS]);
         const char *mask = g_ptr_array_index(obj->masks, i);
         if (mask != NULL) {
