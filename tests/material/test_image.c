@@ -56,7 +56,7 @@ static FrImage *pattern(uint32_t width, uint32_t height, uint32_t channels) {
     return image;
 }
 
-/// A JPEG of one flat colour with `inks` components (3: RGB, 4: CMYK).
+/// A JPEG of one flat colour with 1 (grey), 3 (RGB) or 4 (inks) components.
 static GBytes *flat_jpeg(uint32_t side, const uint8_t *colour, int components) {
     struct jpeg_compress_struct jpeg;
     struct jpeg_error_mgr errors;
