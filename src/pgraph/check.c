@@ -1,0 +1,94 @@
+// What can be wrong with a p-graph before anything is made of it.
+#include "pgraph/prepare.h"
+
+#include <string.h>
+
+static FrStatus check_roots(const FrPgraph *graph, const FrRecursions *recursions, FrDiags *diags,
+                            bool with_warnings) {
+    uint32_t count = fr_pgraph_count(graph);
+    if (count == 0) {
+        fr_diags_add(diags, FR_ERROR, "no-component", (FrSpan){0}, "the plant “%s” is empty",
+                     graph->name);
+        return FR_ERR_DOCUMENT;
+    }
+    for (uint32_t k = 1; k < recursions->roots->len; k++) {
+        uint32_t root = g_array_index(recursions->roots, uint32_t, k);
+        if (fr_pgraph_kind(graph, root) == FR_COMPONENT_CAMERA) {
+            fr_diags_add(diags, FR_ERROR, "second-camera", fr_pgraph_prototype(graph, root)->span,
+                         "“%s” is a second camera; a plant has one root",
+                         fr_pgraph_id(graph, root));
+            return FR_ERR_DOCUMENT;
+        }
+    }
+    for (uint32_t c = 0; c < count && with_warnings; c++) {
+        if (!recursions->is_reached[c]) {
+            fr_diags_add(diags, FR_WARNING, "unreachable-component",
+                         fr_pgraph_prototype(graph, c)->span,
+                         "no way from the camera leads to “%s”, so it is never made",
+                         fr_pgraph_id(graph, c));
+        }
+    }
+    return FR_OK;
+}
+
+static FrStatus check_recursions(const FrPgraph *graph, const FrRecursions *recursions,
+                                 FrDiags *diags, bool with_warnings) {
+    uint32_t endless = fr_recursions_endless_link(recursions, graph);
+    if (endless != FR_NONE) {
+        const FrPgraphLink *link = fr_pgraph_link_at(graph, endless);
+        fr_diags_add(diags, FR_ERROR, "endless-recursion", link->span,
+                     "the link from “%s” to “%s” closes a recursion that never ends; give one of "
+                     "its components a depth",
+                     fr_pgraph_id(graph, link->from), fr_pgraph_id(graph, link->to));
+        return FR_ERR_DOCUMENT;
+    }
+    for (uint32_t c = 0; c < fr_pgraph_count(graph) && with_warnings; c++) {
+        if (fr_pgraph_basic(graph, c)->depth > 1 && !recursions->is_recursive[c]) {
+            fr_diags_add(diags, FR_WARNING, "depth-without-recursion",
+                         fr_pgraph_prototype(graph, c)->span,
+                         "“%s” has a depth but no link leads back to it, so it is made once",
+                         fr_pgraph_id(graph, c));
+        }
+    }
+    return FR_OK;
+}
+
+static FrStatus check_texts(const FrPgraph *graph, FrDiags *diags) {
+    FrStatus status = FR_OK;
+    for (uint32_t c = 0; c < fr_pgraph_count(graph); c++) {
+        const FrPrototype *prototype = fr_pgraph_prototype(graph, c);
+        uint32_t material;
+        FrFlags flags;
+        if (fr_find_material(graph, c, &material, diags) != FR_OK ||
+            fr_flags_parse(&flags, fr_pgraph_basic(graph, c)->only, prototype->id, prototype->span,
+                           diags) != FR_OK) {
+            status = FR_ERR_DOCUMENT;
+            continue;
+        }
+        fr_flags_clear(&flags);
+        bool is_stem = prototype->kind == FR_COMPONENT_HORN || prototype->kind == FR_COMPONENT_TREE;
+        const FrStemParams *stem = prototype->params;
+        if (is_stem && stem->course == FR_COURSE_PATH) {
+            GArray *points = fr_stem_path_points(prototype, diags);
+            status = points == NULL ? FR_ERR_DOCUMENT : status;
+            g_clear_pointer(&points, g_array_unref);
+        }
+    }
+    return status;
+}
+
+FrStatus fr_pgraph_check_all(const FrPgraph *graph, const FrRecursions *recursions, FrDiags *diags,
+                             bool with_warnings) {
+    FrStatus roots = check_roots(graph, recursions, diags, with_warnings);
+    FrStatus endless = check_recursions(graph, recursions, diags, with_warnings);
+    FrStatus texts = check_texts(graph, diags);
+    return roots != FR_OK ? roots : endless != FR_OK ? endless : texts;
+}
+
+FrStatus fr_pgraph_check(const FrPgraph *graph, FrDiags *diags) {
+    FrRecursions recursions;
+    fr_recursions_find(&recursions, graph);
+    FrStatus status = fr_pgraph_check_all(graph, &recursions, diags, true);
+    fr_recursions_clear(&recursions);
+    return status;
+}

@@ -1,0 +1,441 @@
+// Expansion of a p-graph to its instances and of these to a plant, one generation at a time.
+// After: Lintermann, Deussen. Interactive Modeling of Plants. IEEE Computer Graphics and
+// Applications 19 (1), 1999.
+//
+// A level holds the instances of one generation in columns. Each level is measured in parallel,
+// summed and checked against the limits; then rows for all it makes are appended at once and
+// filled in parallel by index. So nothing depends on the number of threads, parents come before
+// children, and too large a plant is refused before it has memory.
+#include "pgraph/instance.h"
+
+#include <math.h>
+
+enum { GRAIN = 256, ROW_BYTES_NODE = 72, ROW_BYTES_AXIS = 60, ROW_BYTES_ORGAN = 64 };
+
+// Rows have 32-bit indices, of which the last means none.
+#define MOST_ROWS ((uint64_t)UINT32_MAX - 1)
+
+typedef struct FrBuild {
+    FrExpansion expansion;
+    const FrContext *context;
+    FrPgraphCounts *counts;
+    uint64_t instances;  ///< of all levels so far
+    uint64_t considered; ///< with those that flags left out
+} FrBuild;
+
+// ---- loops over a level -----------------------------------------------------------------------
+
+static void measure_range(void *data, size_t begin, size_t end, int worker) {
+    const FrExpansion *expansion = data;
+    FrEvaluator evaluator = {.faults = expansion->faults[worker]};
+    for (size_t row = begin; row < end; row++) {
+        fr_instance_measure(expansion, (uint32_t)row, &evaluator);
+    }
+}
+
+static void count_range(void *data, size_t begin, size_t end, int worker) {
+    const FrExpansion *expansion = data;
+    (void)worker;
+    for (size_t row = begin; row < end; row++) {
+        expansion->level.child_count[row] = fr_instance_children(expansion, (uint32_t)row);
+    }
+}
+
+static void make_range(void *data, size_t begin, size_t end, int worker) {
+    const FrExpansion *expansion = data;
+    FrEvaluator evaluator = {.faults = expansion->faults[worker]};
+    FrEvaluator place = {.faults = expansion->faults[worker]};
+    for (size_t row = begin; row < end; row++) {
+        fr_instance_make(expansion, (uint32_t)row, &evaluator, &place);
+    }
+}
+
+static void for_level(FrBuild *build, FrRangeFn body) {
+    fr_parallel_for(build->context->pool, build->expansion.level.count, GRAIN, body,
+                    &build->expansion, build->context->progress);
+}
+
+// ---- limits -----------------------------------------------------------------------------------
+
+typedef struct Sums {
+    uint64_t children, considered, nodes, axes, organs;
+    uint32_t most_children, most_nodes, most_organs; // rows that made the most of each
+} Sums;
+
+static FrStatus check(const FrBuild *build, uint64_t wanted, uint64_t limit, const char *name,
+                      uint32_t row) {
+    const FrExpansion *expansion = &build->expansion;
+    uint32_t component = fr_instance_stage(expansion, row)->component;
+    const FrPrototype *prototype = fr_pgraph_prototype(expansion->graph, component);
+    return fr_limit_check(wanted, MIN(limit, MOST_ROWS), name, prototype->id, prototype->span,
+                          build->context->diags);
+}
+
+static uint32_t multiplied_links(const FrExpansion *expansion, uint32_t row) {
+    const FrStage *stage = fr_instance_stage(expansion, row);
+    FrComponentKind kind = expansion->prepared[stage->component].kind;
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < stage->link_count; k++) {
+        count += fr_link_is_multiplied(kind, fr_stage_link(expansion, stage, k)->kind);
+    }
+    return count;
+}
+
+// Sums what has been measured. Children count as if flags made all of them, and single ones as
+// one for each link: what is left out costs time too.
+static Sums sum_level(const FrExpansion *expansion) {
+    const FrLevel *level = &expansion->level;
+    Sums sums = {0};
+    uint64_t most_children = 0;
+    for (uint32_t row = 0; row < level->count; row++) {
+        uint64_t children = fr_instance_stage(expansion, row)->link_count;
+        if (level->places[row] > 0) {
+            children += (uint64_t)level->places[row] * multiplied_links(expansion, row);
+        }
+        sums.considered = fr_count_add(sums.considered, children);
+        sums.nodes += level->node_count[row];
+        sums.axes += level->axis_count[row];
+        sums.organs += level->organ_count[row];
+        if (children > most_children) {
+            most_children = children;
+            sums.most_children = row;
+        }
+        if (level->node_count[row] > level->node_count[sums.most_nodes]) {
+            sums.most_nodes = row;
+        }
+        if (level->organ_count[row] > level->organ_count[sums.most_organs]) {
+            sums.most_organs = row;
+        }
+    }
+    return sums;
+}
+
+static uint64_t sum_children(const FrLevel *level) {
+    uint64_t sum = 0;
+    for (uint32_t row = 0; row < level->count; row++) {
+        sum += level->child_count[row];
+    }
+    return sum;
+}
+
+static FrStatus check_level(const FrBuild *build, const Sums *sums) {
+    const FrLimits *limits = &build->context->limits;
+    const FrPlant *plant = build->expansion.plant;
+    uint64_t considered = fr_count_add(build->considered, sums->considered);
+    uint64_t nodes = plant->nodes.count + sums->nodes;
+    uint64_t organs = plant->organs.count + sums->organs;
+    uint64_t axes = plant->axes.count + sums->axes;
+    uint64_t bytes = nodes * ROW_BYTES_NODE + axes * ROW_BYTES_AXIS + organs * ROW_BYTES_ORGAN;
+    bytes = fr_count_add(
+        bytes, fr_count_multiply(fr_count_add(build->expansion.level.count, sums->considered),
+                                 fr_level_row_bytes()));
+    FrStatus status = check(build, considered, limits->instances, "instances", sums->most_children);
+    if (status == FR_OK) {
+        status = check(build, nodes, limits->nodes, "nodes", sums->most_nodes);
+    }
+    if (status == FR_OK) {
+        status = check(build, organs, limits->organs, "organs", sums->most_organs);
+    }
+    if (status == FR_OK) {
+        const FrPrototype *prototype = fr_pgraph_prototype(
+            build->expansion.graph,
+            fr_instance_stage(&build->expansion, sums->most_children)->component);
+        status = fr_limit_check(bytes, limits->bytes, "bytes", prototype->id, prototype->span,
+                                build->context->diags);
+    }
+    return status;
+}
+
+// ---- one level --------------------------------------------------------------------------------
+
+static void counts_to_indices(uint32_t *column, uint32_t count, uint32_t first) {
+    for (uint32_t row = 0; row < count; row++) {
+        uint32_t size = column[row];
+        column[row] = first;
+        first += size;
+    }
+}
+
+static void append_rows(FrExpansion *expansion, const Sums *sums) {
+    FrLevel *level = &expansion->level;
+    FrPlant *plant = expansion->plant;
+    uint32_t first_axis = fr_plant_append_axes(plant, (uint32_t)sums->axes);
+    uint32_t first_node = fr_plant_append_nodes(plant, (uint32_t)sums->nodes);
+    expansion->first_organ = fr_plant_append_organs(plant, (uint32_t)sums->organs);
+    counts_to_indices(level->axis_count, level->count, first_axis);
+    counts_to_indices(level->node_count, level->count, first_node);
+    counts_to_indices(level->organ_count, level->count, expansion->first_organ);
+    counts_to_indices(level->child_count, level->count, 0);
+    fr_level_init(&expansion->next, (uint32_t)sums->children);
+    expansion->next.first = level->first + level->count;
+}
+
+// Shapes that depend on where their leaf is, in the order of the leaves.
+static FrStatus find_shapes(FrBuild *build) {
+    FrExpansion *expansion = &build->expansion;
+    FrPlant *plant = expansion->plant;
+    if (expansion->blades == NULL) {
+        return FR_OK;
+    }
+    for (uint32_t organ = expansion->first_organ; organ < plant->organs.count; organ++) {
+        if (plant->organs.shape[organ] != FR_NONE) {
+            continue;
+        }
+        uint32_t component = plant->organs.component[organ];
+        plant->organs.shape[organ] =
+            fr_plant_add_shape(plant, &expansion->blades[organ - expansion->first_organ]);
+        const FrPrototype *prototype = fr_pgraph_prototype(expansion->graph, component);
+        if (plant->shapes->len > build->context->limits.shapes) {
+            return fr_limit_check(plant->shapes->len, build->context->limits.shapes, "shapes",
+                                  prototype->id, prototype->span, build->context->diags);
+        }
+    }
+    return FR_OK;
+}
+
+static bool needs_blades(const FrExpansion *expansion) {
+    const FrLevel *level = &expansion->level;
+    for (uint32_t row = 0; row < level->count; row++) {
+        const FrPrepared *prepared =
+            &expansion->prepared[fr_instance_stage(expansion, row)->component];
+        if (prepared->kind == FR_COMPONENT_LEAF && prepared->shape_choice == FR_SHAPE_EVALUATED) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void record_level(FrBuild *build) {
+    const FrLevel *level = &build->expansion.level;
+    build->instances += level->count;
+    FrPgraphCounts *counts = build->counts;
+    if (counts == NULL) {
+        return;
+    }
+    counts->instances = build->instances;
+    for (uint32_t row = 0; row < level->count; row++) {
+        counts->by_component[fr_instance_stage(&build->expansion, row)->component]++;
+    }
+    if (counts->parent != NULL) {
+        counts->parent = g_renew(uint32_t, counts->parent, build->instances);
+        counts->component = g_renew(uint32_t, counts->component, build->instances);
+        uint64_t before = level->first - build->expansion.level_before;
+        for (uint32_t row = 0; row < level->count; row++) {
+            uint32_t parent = level->parent[row];
+            counts->parent[level->first + row] =
+                parent != FR_NONE ? (uint32_t)(before + parent) : FR_NONE;
+            counts->component[level->first + row] =
+                fr_instance_stage(&build->expansion, row)->component;
+        }
+    }
+}
+
+static FrStatus expand_level(FrBuild *build) {
+    FrExpansion *expansion = &build->expansion;
+    const FrContext *context = build->context;
+    record_level(build);
+    for_level(build, measure_range);
+    if (fr_progress_is_cancelled(context->progress)) {
+        return FR_CANCELLED;
+    }
+    Sums sums = sum_level(expansion);
+    FrStatus status = check_level(build, &sums);
+    if (status != FR_OK) {
+        return status;
+    }
+    build->considered += sums.considered;
+    for_level(build, count_range);
+    if (fr_progress_is_cancelled(context->progress)) {
+        return FR_CANCELLED;
+    }
+    sums.children = sum_children(&expansion->level);
+    bool has_blades = needs_blades(expansion);
+    append_rows(expansion, &sums);
+    expansion->blades = has_blades ? g_new(FrShape, sums.organs) : NULL;
+    for_level(build, make_range);
+    status = fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : find_shapes(build);
+    g_clear_pointer(&expansion->blades, g_free);
+    return status;
+}
+
+// ---- the whole --------------------------------------------------------------------------------
+
+static void begin_level(FrBuild *build) {
+    FrExpansion *expansion = &build->expansion;
+    const FrUnrolled *unrolled = expansion->unrolled;
+    FrLevel *level = &expansion->level;
+    fr_level_init(level, unrolled->roots->len);
+    for (uint32_t row = 0; row < level->count; row++) {
+        uint32_t stage = g_array_index(unrolled->roots, uint32_t, row);
+        FrKey root = fr_key_root(expansion->graph->seed);
+        level->stage[row] = stage;
+        level->parent[row] = level->bearer[row] = FR_NONE;
+        level->offset[row] = (vec3s){{0, 0, 0}};
+        level->rotation[row] = (versors){{0, 0, 0, 1}};
+        level->scale[row] = 1;
+        level->key[row] = fr_key_child(root, fr_stage_prepared(expansion, stage)->key_word);
+        level->i[row] = level->i1[row] = level->i2[row] = 0;
+        level->n[row] = level->n1[row] = level->n2[row] = 1;
+        level->generation[row] = level->order[row] = 0;
+        level->joint[row] = FR_JOINT_NONE;
+        level->x[row] = 0;
+        level->parent_length[row] = -1;
+        level->parent_radius[row] = 0;
+        level->material[row] = level->axis[row] = FR_NONE;
+    }
+}
+
+// A lower bound of instances from what is constant, so that absurd plants are refused at once.
+static FrStatus check_least(const FrBuild *build) {
+    const FrExpansion *expansion = &build->expansion;
+    const FrPgraph *graph = expansion->graph;
+    uint32_t count = fr_pgraph_count(graph);
+    uint64_t *multiplicity = g_new0(uint64_t, count);
+    bool *is_flagged = g_new0(bool, count);
+    for (uint32_t c = 0; c < count; c++) {
+        const FrPrepared *prepared = &expansion->prepared[c];
+        const FrNumber *number = NULL;
+        is_flagged[c] = !prepared->flags.is_all;
+        if (prepared->kind == FR_COMPONENT_PHIBALL && prepared->params != NULL) {
+            number = &((const FrPhiballParams *)prepared->params)->number;
+        } else if (prepared->kind == FR_COMPONENT_TREE) {
+            const FrTreeParams *tree = prepared->params;
+            number = tree->mode == FR_BRANCHES_BY_NUMBER ? &tree->number : NULL;
+        }
+        if (number != NULL && number->is_constant) {
+            multiplicity[c] = (uint64_t)floor(number->constant + 0.5);
+        }
+    }
+    uint32_t culprit;
+    uint64_t least =
+        fr_unrolled_least(expansion->unrolled, graph, multiplicity, is_flagged, &culprit);
+    g_free(multiplicity);
+    g_free(is_flagged);
+    if (culprit == FR_NONE) {
+        return FR_OK;
+    }
+    const FrPrototype *prototype = fr_pgraph_prototype(graph, culprit);
+    return fr_limit_check(least, build->context->limits.instances, "instances", prototype->id,
+                          prototype->span, build->context->diags);
+}
+
+static gint compare_faults(gconstpointer a, gconstpointer b) {
+    const FrValueFault *p = *(FrValueFault *const *)a;
+    const FrValueFault *q = *(FrValueFault *const *)b;
+    if (p->instance != q->instance) {
+        return p->instance < q->instance ? -1 : 1;
+    }
+    return p->parameter < q->parameter ? -1 : p->parameter > q->parameter;
+}
+
+// Each parameter that had no value somewhere is reported once, first instances first.
+static void report_faults(const FrBuild *build, int workers) {
+    const FrExpansion *expansion = &build->expansion;
+    GHashTable *first = fr_value_faults_new();
+    for (int worker = 0; worker < workers; worker++) {
+        GHashTableIter iter;
+        gpointer key;
+        g_hash_table_iter_init(&iter, expansion->faults[worker]);
+        while (g_hash_table_iter_next(&iter, &key, NULL)) {
+            const FrValueFault *fault = key;
+            const FrValueFault *known = g_hash_table_lookup(first, fault);
+            if (known == NULL || fault->instance < known->instance) {
+                g_hash_table_add(first, g_memdup2(fault, sizeof *fault));
+            }
+        }
+    }
+    GPtrArray *sorted = g_ptr_array_new();
+    GHashTableIter iter;
+    gpointer key;
+    g_hash_table_iter_init(&iter, first);
+    while (g_hash_table_iter_next(&iter, &key, NULL)) {
+        g_ptr_array_add(sorted, key);
+    }
+    g_ptr_array_sort(sorted, compare_faults);
+    for (guint k = 0; k < sorted->len; k++) {
+        const FrValueFault *fault = g_ptr_array_index(sorted, k);
+        const FrPrototype *prototype = fr_pgraph_prototype(expansion->graph, fault->component);
+        const FrParam *row = &fr_pgraph_table(prototype->kind)->rows[fault->parameter];
+        char *attribute = fr_param_attribute(row);
+        char *what = g_strdup_printf("%s of “%s”", attribute, prototype->id);
+        fr_expr_report_fault(&fault->fault, what, build->context->diags);
+        g_free(what);
+        g_free(attribute);
+    }
+    g_ptr_array_unref(sorted);
+    g_hash_table_unref(first);
+}
+
+static FrStatus expand(FrBuild *build, const FrRecursions *recursions, FrUnrolled *unrolled) {
+    FrExpansion *expansion = &build->expansion;
+    const FrContext *context = build->context;
+    int workers = fr_pool_threads(context->pool);
+    expansion->faults = g_new(GHashTable *, workers);
+    for (int worker = 0; worker < workers; worker++) {
+        expansion->faults[worker] = fr_value_faults_new();
+    }
+    FrPrepared *prepared = NULL;
+    FrStatus status = fr_prepare(&prepared, expansion->graph, recursions, expansion->plant,
+                                 expansion->faults[0], context);
+    expansion->prepared = prepared;
+    expansion->unrolled = unrolled;
+    status = status == FR_OK ? check_least(build) : status;
+    if (status == FR_OK) {
+        begin_level(build);
+    }
+    uint32_t levels = 0;
+    while (status == FR_OK && expansion->level.count > 0) {
+        status = expand_level(build);
+        expansion->level_before = expansion->level.count;
+        fr_level_clear(&expansion->level);
+        expansion->level = expansion->next;
+        expansion->next = (FrLevel){0};
+        levels++;
+        fr_progress_report(context->progress, "build", 1 - 1.0 / (1 + levels));
+    }
+    fr_level_clear(&expansion->level);
+    report_faults(build, workers);
+    for (int worker = 0; worker < workers; worker++) {
+        g_hash_table_unref(expansion->faults[worker]);
+    }
+    g_free(expansion->faults);
+    fr_prepared_free(prepared, fr_pgraph_count(expansion->graph));
+    return status;
+}
+
+static void begin_counts(FrPgraphCounts *counts, uint32_t components) {
+    if (counts == NULL) {
+        return;
+    }
+    bool wants_tree = counts->parent != NULL;
+    *counts = (FrPgraphCounts){.by_component = g_new0(uint64_t, MAX(components, 1))};
+    if (wants_tree) {
+        counts->parent = g_new(uint32_t, 1);
+        counts->component = g_new(uint32_t, 1);
+    }
+}
+
+FrStatus fr_pgraph_build(const FrPgraph *graph, const FrContext *context, FrPlant **plant,
+                         FrPgraphCounts *counts) {
+    FrRecursions recursions;
+    FrBuild build = {.context = context, .counts = counts, .expansion = {.graph = graph}};
+    *plant = NULL;
+    begin_counts(counts, fr_pgraph_count(graph));
+    fr_recursions_find(&recursions, graph);
+    FrStatus status = fr_pgraph_check_all(graph, &recursions, context->diags, false);
+    if (status == FR_OK) {
+        FrUnrolled unrolled;
+        build.expansion.plant = fr_plant_new(graph->name);
+        status = fr_unroll(&unrolled, graph, &recursions, context);
+        status = status == FR_OK ? expand(&build, &recursions, &unrolled) : status;
+        fr_unrolled_clear(&unrolled);
+    }
+    fr_recursions_clear(&recursions);
+    if (status == FR_OK) {
+        *plant = build.expansion.plant;
+        fr_progress_report(context->progress, "build", 1);
+    } else {
+        fr_plant_free(build.expansion.plant);
+    }
+    return status;
+}

@@ -1,0 +1,176 @@
+#include "pgraph/instance.h"
+
+#include "plant/frames.h"
+
+#include <cglm/struct.h>
+#include <math.h>
+
+static const versors identity = {{0, 0, 0, 1}};
+
+// Sizes stay where floats have room to spare, however deep a recursion goes.
+#define SMALLEST 1e-9
+#define LARGEST 1e9
+// Positions too: nothing is farther from its bearer than this, in metres.
+#define FARTHEST 1e9f
+
+static double share(uint32_t i, uint32_t n) {
+    return n > 1 ? (double)i / (double)(n - 1) : 0;
+}
+
+static uint32_t component_of(const FrExpansion *expansion, uint32_t row) {
+    return fr_instance_stage(expansion, row)->component;
+}
+
+static double height_of(const FrExpansion *expansion, uint32_t row) {
+    const FrLevel *level = &expansion->level;
+    const FrNodes *nodes = &expansion->plant->nodes;
+    uint32_t bearer = level->bearer[row];
+    if (bearer == FR_NONE) {
+        return (double)level->offset[row].z;
+    }
+    vec3s offset = fr_turned(nodes->frame[bearer], level->offset[row]);
+    return (double)(nodes->position[bearer].z + offset.z);
+}
+
+void fr_instance_enter(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
+    const FrLevel *level = &expansion->level;
+    uint32_t component = component_of(expansion, row);
+    const FrPrepared *prepared = &expansion->prepared[component];
+    evaluator->component = component;
+    evaluator->instance = level->first + row;
+    evaluator->vars.key = level->key[row];
+    if (!prepared->varies) {
+        return;
+    }
+    double *value = evaluator->vars.value;
+    for (int var = 0; var < FR_VAR_COUNT; var++) {
+        value[var] = 0;
+    }
+    value[FR_VAR_t] = share(level->i[row], level->n[row]);
+    value[FR_VAR_i] = level->i[row];
+    value[FR_VAR_n] = level->n[row];
+    value[FR_VAR_i1] = level->i1[row];
+    value[FR_VAR_n1] = level->n1[row];
+    value[FR_VAR_i2] = level->i2[row];
+    value[FR_VAR_n2] = level->n2[row];
+    value[FR_VAR_depth] = level->generation[row];
+    value[FR_VAR_order] = level->order[row];
+    value[FR_VAR_x] = (double)level->x[row];
+    value[FR_VAR_height] = prepared->uses_height ? height_of(expansion, row) : 0;
+    value[FR_VAR_light] = 1;
+}
+
+void fr_place_enter(FrEvaluator *place, const FrEvaluator *parent, const FrLevel *level,
+                    uint32_t row, uint32_t i, uint32_t n, FrKey key) {
+    double *value = place->vars.value;
+    place->component = parent->component;
+    place->instance = parent->instance;
+    place->vars.key = key;
+    for (int var = 0; var < FR_VAR_COUNT; var++) {
+        value[var] = parent->vars.value[var];
+    }
+    value[FR_VAR_t] = share(i, n);
+    value[FR_VAR_i] = i;
+    value[FR_VAR_n] = n;
+    value[FR_VAR_i1] = level->i[row];
+    value[FR_VAR_n1] = level->n[row];
+    value[FR_VAR_i2] = level->i1[row];
+    value[FR_VAR_n2] = level->n1[row];
+    value[FR_VAR_order] = level->order[row] + 1;
+}
+
+static versors turn_about(int axis, double angle) {
+    vec3s unit = {{0, 0, 0}};
+    unit.raw[axis] = 1;
+    return fr_rotation_about(unit, (float)angle);
+}
+
+FrPose fr_pose_moved(FrPose pose, vec3s by, versors turn) {
+    vec3s moved = fr_turned(pose.rotation, by);
+    pose.offset = glms_vec3_add(pose.offset, moved);
+    for (int k = 0; k < 3; k++) {
+        pose.offset.raw[k] = fmaxf(-FARTHEST, fminf(pose.offset.raw[k], FARTHEST));
+    }
+    pose.rotation = fr_frame_step(pose.rotation, turn);
+    return pose;
+}
+
+FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
+    const FrLevel *level = &expansion->level;
+    const FrStage *stage = fr_instance_stage(expansion, row);
+    const FrPrepared *prepared = &expansion->prepared[stage->component];
+    const FrBasicParams *basic = prepared->params;
+#define FR_GET(field) fr_value(evaluator, &basic->field, FR_BASIC_##field)
+    FrPose pose = {
+        .bearer = level->bearer[row],
+        .offset = level->offset[row],
+        .rotation = level->rotation[row],
+        .scale = (double)level->scale[row],
+    };
+    versors turn = identity;
+    if (stage->is_further) {
+        double angle = FR_GET(recursion_angle);
+        pose.scale *= FR_GET(recursion_scale);
+        pose.is_turned_or_moved = angle != 0;
+        turn = turn_about(0, angle);
+        pose.rotation = angle != 0 ? fr_frame_step(pose.rotation, turn) : pose.rotation;
+    }
+    if (!prepared->is_unmoved) {
+        double x = FR_GET(rotate_x), y = FR_GET(rotate_y), z = FR_GET(rotate_z);
+        vec3s by = {{(float)(FR_GET(translate_x) * pose.scale),
+                     (float)(FR_GET(translate_y) * pose.scale),
+                     (float)(FR_GET(translate_z) * pose.scale)}};
+        turn = fr_frame_step(turn_about(2, z), fr_frame_step(turn_about(1, y), turn_about(0, x)));
+        pose = fr_pose_moved(pose, by, turn);
+        pose.is_turned_or_moved |=
+            x != 0 || y != 0 || z != 0 || by.x != 0 || by.y != 0 || by.z != 0;
+    }
+    pose.scale = fmax(SMALLEST, fmin(pose.scale * FR_GET(scale), LARGEST));
+#undef FR_GET
+    return pose;
+}
+
+FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, double scale) {
+    const FrLevel *level = &expansion->level;
+    return (FrStemBase){
+        .scale = scale,
+        .parent_length = (double)level->parent_length[row],
+        .parent_radius = (double)level->parent_radius[row],
+        .has_parent = level->parent_length[row] >= 0,
+    };
+}
+
+uint32_t fr_instance_material(const FrExpansion *expansion, uint32_t row) {
+    uint32_t own = expansion->prepared[component_of(expansion, row)].material;
+    return own != FR_NONE ? own : expansion->level.material[row];
+}
+
+void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLink *link,
+                    const FrChild *child, uint32_t at) {
+    const FrLevel *level = &expansion->level;
+    const FrLevel *next = &expansion->next;
+    const FrStage *stage = &g_array_index(expansion->unrolled->stages, FrStage, link->stage);
+    uint32_t generation = stage->generation;
+    next->stage[at] = link->stage;
+    next->parent[at] = row;
+    next->bearer[at] = child->site.bearer;
+    next->offset[at] = child->site.offset;
+    next->rotation[at] = child->site.rotation;
+    next->scale[at] = (float)fmax(SMALLEST, fmin(child->site.scale, LARGEST));
+    next->key[at] = fr_key_child(child->key, expansion->prepared[stage->component].key_word);
+    next->i[at] = child->i;
+    next->n[at] = child->n;
+    next->i1[at] = child->is_multiplied ? level->i[row] : level->i1[row];
+    next->n1[at] = child->is_multiplied ? level->n[row] : level->n1[row];
+    next->i2[at] = child->is_multiplied ? level->i1[row] : level->i2[row];
+    next->n2[at] = child->is_multiplied ? level->n1[row] : level->n2[row];
+    next->generation[at] =
+        generation != FR_NONE ? (uint16_t)MIN(generation, UINT16_MAX) : level->generation[row];
+    next->order[at] = child->order;
+    next->joint[at] = child->joint;
+    next->x[at] = child->x;
+    next->parent_length[at] = child->parent_length;
+    next->parent_radius[at] = child->parent_radius;
+    next->material[at] = fr_instance_material(expansion, row);
+    next->axis[at] = child->axis;
+}

@@ -1,0 +1,92 @@
+/// @file instance.h
+/// One instance on its way from a row of a level to nodes, axes, organs and children.
+#pragma once
+
+#include "pgraph/level.h"
+#include "pgraph/stem.h"
+#include "pgraph/unroll.h"
+
+/// Everything a build has, shared by the loops over its levels.
+typedef struct FrExpansion {
+    const FrPgraph *graph;
+    const FrUnrolled *unrolled;
+    const FrPrepared *prepared; ///< of each component
+    FrPlant *plant;
+    FrLevel level, next;
+    uint32_t level_before; ///< instances of the level before
+    GHashTable **faults;   ///< of each worker
+    FrShape *blades;       ///< of this level's organs, for shapes to be found after the loop; NULL
+    uint32_t first_organ;  ///< of this level
+} FrExpansion;
+
+/// Where and how large an instance is, its own transformation applied.
+typedef struct FrPose {
+    uint32_t bearer;
+    vec3s offset;
+    versors rotation;
+    double scale;
+    bool is_turned_or_moved;
+} FrPose;
+
+/// What a parent hands to one child.
+typedef struct FrChild {
+    FrPose site;
+    FrKey key; ///< of the place; the child's id is still to be hashed in
+    uint32_t i, n;
+    bool is_multiplied;
+    uint8_t joint;
+    uint16_t order;
+    float x, parent_length, parent_radius;
+    uint32_t axis;
+} FrChild;
+
+static inline const FrStage *fr_instance_stage(const FrExpansion *expansion, uint32_t row) {
+    return &g_array_index(expansion->unrolled->stages, FrStage, expansion->level.stage[row]);
+}
+
+static inline const FrStageLink *fr_stage_link(const FrExpansion *expansion, const FrStage *stage,
+                                               uint32_t k) {
+    return &g_array_index(expansion->unrolled->links, FrStageLink, stage->first_link + k);
+}
+
+static inline const FrPrepared *fr_stage_prepared(const FrExpansion *expansion, uint32_t stage) {
+    return &expansion
+                ->prepared[g_array_index(expansion->unrolled->stages, FrStage, stage).component];
+}
+
+/// Sets the variables of the instance in that row.
+void fr_instance_enter(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
+/// Its pose; the variables must be set.
+FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
+/// What its stem grows from.
+FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, double scale);
+/// The material of what it makes.
+uint32_t fr_instance_material(const FrExpansion *expansion, uint32_t row);
+/// A pose moved and turned within itself.
+FrPose fr_pose_moved(FrPose pose, vec3s by, versors turn);
+/// Variables for the parameters that a multiplier has for each child.
+void fr_place_enter(FrEvaluator *place, const FrEvaluator *parent, const FrLevel *level,
+                    uint32_t row, uint32_t i, uint32_t n, FrKey key);
+/// Writes a child into row `at` of the next level, where `link` is of the instance in `row`.
+void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLink *link,
+                    const FrChild *child, uint32_t at);
+
+/// Counts what the instance in `row` makes, except children that flags decide about.
+void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
+/// Children that are made, by flags.
+uint32_t fr_instance_children(const FrExpansion *expansion, uint32_t row);
+/// Makes it: the counts have become indices.
+void fr_instance_make(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
+                      FrEvaluator *place);
+
+/// The kinds, from make.c and multiply.c.
+void fr_make_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
+                  FrEvaluator *place);
+void fr_make_phiball(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
+                     FrEvaluator *place);
+/// Writes the branches of a Tree's stem into the next level from `at` on; returns the row after.
+uint32_t fr_make_branches(const FrExpansion *expansion, uint32_t row, const FrStem *stem,
+                          FrPose base, FrEvaluator *evaluator, FrEvaluator *place, uint32_t at);
+/// Makes the children that are not multiplied, from `at` on.
+void fr_make_single_children(const FrExpansion *expansion, uint32_t row, FrChild child,
+                             uint32_t at);

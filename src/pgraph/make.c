@@ -1,0 +1,312 @@
+// Making what an instance stands for: its axis, nodes, organs, and the rows of its children.
+#include "pgraph/instance.h"
+
+#include "plant/frames.h"
+
+#include <cglm/struct.h>
+#include <math.h>
+
+static const versors identity = {{0, 0, 0, 1}};
+static const vec3s nowhere = {{0, 0, 0}};
+
+// Steps of position and height (m) in which shapes that depend on them differ, so that leaves
+// share shapes.
+#define SHAPE_POSITIONS 64.0
+#define SHAPE_HEIGHT 0.1
+
+static const FrPrepared *prepared_of(const FrExpansion *expansion, uint32_t row) {
+    return &expansion->prepared[fr_instance_stage(expansion, row)->component];
+}
+
+static FrChild single_child(const FrExpansion *expansion, uint32_t row, FrPose site) {
+    const FrLevel *level = &expansion->level;
+    return (FrChild){
+        .site = site,
+        .i = level->i[row],
+        .n = level->n[row],
+        .order = level->order[row],
+        .x = level->x[row],
+        .parent_length = level->parent_length[row],
+        .parent_radius = level->parent_radius[row],
+        .axis = FR_NONE,
+    };
+}
+
+// A tube or area goes on in the first such child only; another begins a new one.
+static bool goes_on(const FrPrepared *from, const FrPrepared *to, uint32_t axis) {
+    const FrSimpleParams *a = from->params;
+    const FrSimpleParams *b = to->params;
+    return axis != FR_NONE && from->is_point_set && to->is_point_set &&
+           a->primitive == b->primitive;
+}
+
+void fr_make_single_children(const FrExpansion *expansion, uint32_t row, FrChild child,
+                             uint32_t at) {
+    const FrLevel *level = &expansion->level;
+    const FrStage *stage = fr_instance_stage(expansion, row);
+    const FrPrepared *prepared = &expansion->prepared[stage->component];
+    for (uint32_t k = 0; k < stage->link_count; k++) {
+        const FrStageLink *link = fr_stage_link(expansion, stage, k);
+        const FrPrepared *to = fr_stage_prepared(expansion, link->stage);
+        if (fr_link_is_multiplied(prepared->kind, link->kind) ||
+            !fr_flags_allow(&to->flags, child.i, child.n)) {
+            continue;
+        }
+        FrChild one = child;
+        one.key = fr_key_child(level->key[row], FR_NONE - (uint64_t)link->kind);
+        if (goes_on(prepared, to, child.axis)) {
+            one.joint = FR_JOINT_SET;
+            child.axis = FR_NONE;
+        }
+        fr_child_write(expansion, row, link, &one, at++);
+    }
+}
+
+static uint32_t write_organ(const FrExpansion *expansion, uint32_t row, uint32_t organ, FrPose pose,
+                            uint32_t shape) {
+    FrOrgans *organs = &expansion->plant->organs;
+    organs->node[organ] = pose.bearer;
+    organs->offset[organ] = pose.offset;
+    organs->rotation[organ] = pose.rotation;
+    organs->scale[organ] = (float)fmax(pose.scale, 1e-9);
+    organs->shape[organ] = shape;
+    organs->material[organ] = fr_instance_material(expansion, row);
+    organs->component[organ] = fr_instance_stage(expansion, row)->component;
+    organs->path[organ] = expansion->level.key[row];
+    return organ;
+}
+
+static void write_axis(const FrExpansion *expansion, uint32_t row, uint32_t axis, FrPose pose,
+                       double radius, uint16_t flags) {
+    FrAxes *axes = &expansion->plant->axes;
+    axes->bearer[axis] = pose.bearer;
+    axes->offset[axis] = pose.offset;
+    axes->base_radius[axis] = (float)radius;
+    axes->order[axis] = expansion->level.order[row];
+    axes->flags[axis] = flags;
+    axes->profile[axis] = prepared_of(expansion, row)->profile;
+    axes->material[axis] = fr_instance_material(expansion, row);
+    axes->component[axis] = fr_instance_stage(expansion, row)->component;
+    axes->path[axis] = expansion->level.key[row];
+}
+
+// ---- leaf -------------------------------------------------------------------------------------
+
+// Turns `frame` so that its direction `from` comes nearer to `to` by `part` of the angle.
+static versors turned_towards(versors frame, vec3s from, vec3s to, double part) {
+    vec3s axis = glms_vec3_cross(from, to);
+    float sine = glms_vec3_norm(axis);
+    float angle = atan2f(sine, glms_vec3_dot(from, to));
+    axis = sine > 1e-6f ? glms_vec3_divs(axis, sine) : fr_frame_left(frame);
+    return fr_frame_step(fr_rotation_about(axis, (float)part * angle), frame);
+}
+
+static versors leaf_rotation(const FrExpansion *expansion, const FrLeafParams *leaf, FrPose pose,
+                             FrEvaluator *evaluator) {
+    double light = fr_value(evaluator, &leaf->phototropism, FR_LEAF_phototropism);
+    double weight = fr_value(evaluator, &leaf->gravitropism, FR_LEAF_gravitropism);
+    if (light == 0 && weight == 0) {
+        return pose.rotation;
+    }
+    versors bearer = pose.bearer != FR_NONE ? expansion->plant->nodes.frame[pose.bearer] : identity;
+    versors frame = fr_frame_step(bearer, pose.rotation);
+    if (weight != 0) {
+        vec3s along = {{0, 0, weight > 0 ? -1.0f : 1.0f}};
+        frame = turned_towards(frame, fr_frame_heading(frame), along, fabs(weight));
+    }
+    if (light != 0) {
+        frame = turned_towards(frame, fr_frame_up(frame), (vec3s){{0, 0, 1}}, light);
+    }
+    versors back = {{-bearer.x, -bearer.y, -bearer.z, bearer.w}};
+    return fr_frame_step(back, frame);
+}
+
+static uint32_t leaf_shape(const FrExpansion *expansion, uint32_t row, uint32_t organ,
+                           FrEvaluator *evaluator) {
+    const FrPrepared *prepared = prepared_of(expansion, row);
+    if (prepared->shape_choice == FR_SHAPE_SAME) {
+        return prepared->shape;
+    }
+    uint32_t variant = (uint32_t)(expansion->level.key[row] % prepared->variant_count);
+    if (prepared->shape_choice == FR_SHAPE_VARIANT) {
+        return prepared->variants[variant];
+    }
+    double *value = evaluator->vars.value;
+    value[FR_VAR_x] = round(value[FR_VAR_x] * SHAPE_POSITIONS) / SHAPE_POSITIONS;
+    value[FR_VAR_height] = round(value[FR_VAR_height] / SHAPE_HEIGHT) * SHAPE_HEIGHT;
+    evaluator->vars.key = fr_variant_key(expansion->graph, prepared, variant);
+    expansion->blades[organ - expansion->first_organ] = fr_leaf_shape(prepared, evaluator);
+    return FR_NONE; // found after the loop
+}
+
+static void make_leaf(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
+    const FrLevel *level = &expansion->level;
+    FrPose pose = fr_instance_pose(expansion, row, evaluator);
+    FrPose placed = pose;
+    placed.rotation =
+        leaf_rotation(expansion, prepared_of(expansion, row)->params, pose, evaluator);
+    uint32_t organ = level->organ_count[row];
+    write_organ(expansion, row, organ, placed, leaf_shape(expansion, row, organ, evaluator));
+    fr_make_single_children(expansion, row, single_child(expansion, row, pose),
+                            level->child_count[row]);
+}
+
+// ---- simple -----------------------------------------------------------------------------------
+
+// The next ring of a chain of point sets: a node from the last set's place to this one's. Returns
+// the pose of what follows, on that node.
+static FrPose add_point_set(const FrExpansion *expansion, uint32_t row, FrPose pose,
+                            const FrSimpleParams *simple) {
+    const FrLevel *level = &expansion->level;
+    FrNodes *nodes = &expansion->plant->nodes;
+    FrAxes *axes = &expansion->plant->axes;
+    uint32_t axis = level->axis[row], node = level->node_count[row];
+    // The last set stands at the row's site: on its own node, or at the axis' origin.
+    uint32_t before = level->bearer[row];
+    vec3s chord = glms_vec3_sub(pose.offset, level->offset[row]);
+    float length = glms_vec3_norm(chord);
+    versors rotation = pose.rotation;
+    if (length > 0) {
+        vec3s heading = fr_frame_heading(rotation);
+        rotation =
+            fr_frame_step(fr_rotation_between(heading, glms_vec3_divs(chord, length)), rotation);
+    }
+    nodes->parent[node] = before;
+    nodes->axis[node] = axis;
+    nodes->rotation[node] = rotation;
+    nodes->length[node] = length;
+    nodes->radius[node] = (float)(0.5 * (double)simple->size.x * pose.scale);
+    nodes->flatness[node] = simple->size.x > 0 ? simple->size.y / simple->size.x : 1;
+    if (axes->first[axis] == FR_NONE) {
+        axes->first[axis] = node;
+    } else {
+        nodes->next[before] = node;
+    }
+    axes->last[axis] = node;
+    fr_update_frame(nodes, axes, node);
+    versors back = {{-rotation.x, -rotation.y, -rotation.z, rotation.w}};
+    pose.bearer = node;
+    pose.offset = nowhere;
+    pose.rotation = fr_frame_step(back, pose.rotation);
+    return pose;
+}
+
+static void make_simple(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
+    const FrLevel *level = &expansion->level;
+    const FrPrepared *prepared = prepared_of(expansion, row);
+    const FrSimpleParams *simple = prepared->params;
+    FrPose pose = fr_instance_pose(expansion, row, evaluator);
+    uint32_t axis = FR_NONE;
+    if (prepared->is_point_set && level->joint[row] == FR_JOINT_SET) {
+        axis = level->axis[row];
+        pose = add_point_set(expansion, row, pose, simple);
+    } else if (prepared->is_point_set) {
+        axis = level->axis_count[row];
+        write_axis(expansion, row, axis, pose, 0.5 * (double)simple->size.x * pose.scale,
+                   FR_POINT_SETS | FR_CUT);
+    } else if (prepared->shape != FR_NONE) {
+        write_organ(expansion, row, level->organ_count[row], pose, prepared->shape);
+        vec3s top = {{0, 0, (float)((double)simple->size.z * pose.scale)}};
+        pose = fr_pose_moved(pose, top, identity);
+    }
+    FrChild child = single_child(expansion, row, pose);
+    child.axis = axis;
+    fr_make_single_children(expansion, row, child, level->child_count[row]);
+}
+
+// ---- stem -------------------------------------------------------------------------------------
+
+static void make_string(const FrExpansion *expansion, uint32_t row, const FrStem *stem, FrPose base,
+                        versors tip) {
+    const FrLevel *level = &expansion->level;
+    const FrStemParams *params = stem->prepared->params;
+    uint32_t organ = level->organ_count[row], first = level->node_count[row];
+    bool is_stepped = params->course == FR_COURSE_STEPS;
+    if (is_stepped) {
+        base.scale = fr_stem_radius(stem, 0);
+        write_organ(expansion, row, organ++, base, stem->prepared->shape);
+    }
+    for (uint32_t k = 0; k < stem->internodes; k++) {
+        float length = expansion->plant->nodes.length[first + k];
+        FrPose bead = {
+            .bearer = first + k,
+            .offset = {{0, 0, is_stepped ? 0 : -length}},
+            .rotation = is_stepped ? tip : identity,
+            .scale = fr_stem_radius(stem, (k + (is_stepped ? 1 : 0.5)) / stem->internodes),
+        };
+        write_organ(expansion, row, organ++, bead, stem->prepared->shape);
+    }
+}
+
+// Makes axis and nodes; returns the pose at the tip.
+static FrPose grow_stem(const FrExpansion *expansion, uint32_t row, const FrStem *stem,
+                        FrPose pose) {
+    const FrLevel *level = &expansion->level;
+    const FrStemParams *params = stem->prepared->params;
+    FrPose tip = pose;
+    if (stem->internodes > 0) {
+        uint32_t axis = level->axis_count[row], first = level->node_count[row];
+        bool continues = level->joint[row] == FR_JOINT_TIP && !pose.is_turned_or_moved;
+        unsigned flags = (continues ? FR_CONTINUES : 0u) |
+                         (params->tip == FR_TIP_FLAT ? FR_CUT : 0u) |
+                         (params->course == FR_COURSE_STEPS ? FR_POINT_SETS : 0u) |
+                         (params->primitive > FR_PRIMITIVE_AREA ? FR_HIDDEN : 0u);
+        FrPose base = pose;
+        if (params->course == FR_COURSE_PATH) {
+            vec3s start = g_array_index(stem->prepared->path, vec3s, 0);
+            base = fr_pose_moved(pose, glms_vec3_scale(start, (float)pose.scale), identity);
+        }
+        write_axis(expansion, row, axis, base, fr_stem_radius(stem, 0), (uint16_t)flags);
+        tip.rotation = fr_stem_grow(stem, expansion->plant, axis, first, pose.rotation);
+        tip.bearer = first + stem->internodes - 1;
+        tip.offset = nowhere;
+    }
+    if (stem->prepared->is_string) {
+        make_string(expansion, row, stem, pose, tip.rotation);
+    }
+    return tip;
+}
+
+void fr_make_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
+                  FrEvaluator *place) {
+    const FrLevel *level = &expansion->level;
+    FrPose pose = fr_instance_pose(expansion, row, evaluator);
+    FrStem stem = fr_stem_measure(prepared_of(expansion, row), evaluator,
+                                  fr_instance_stem_base(expansion, row, pose.scale));
+    FrPose tip = grow_stem(expansion, row, &stem, pose);
+    uint32_t at = level->child_count[row];
+    if (level->places[row] > 0) {
+        at = fr_make_branches(expansion, row, &stem, pose, evaluator, place, at);
+    }
+    FrChild child = single_child(expansion, row, tip);
+    child.joint = stem.internodes > 0 ? FR_JOINT_TIP : FR_JOINT_NONE;
+    child.x = 1;
+    child.parent_length = (float)(stem.length / pose.scale);
+    child.parent_radius = (float)(fr_stem_radius(&stem, 1) / pose.scale);
+    fr_make_single_children(expansion, row, child, at);
+}
+
+void fr_instance_make(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
+                      FrEvaluator *place) {
+    fr_instance_enter(expansion, row, evaluator);
+    switch (prepared_of(expansion, row)->kind) {
+    case FR_COMPONENT_HORN:
+    case FR_COMPONENT_TREE:
+        fr_make_stem(expansion, row, evaluator, place);
+        break;
+    case FR_COMPONENT_LEAF:
+        make_leaf(expansion, row, evaluator);
+        break;
+    case FR_COMPONENT_SIMPLE:
+        make_simple(expansion, row, evaluator);
+        break;
+    case FR_COMPONENT_PHIBALL:
+        fr_make_phiball(expansion, row, evaluator, place);
+        break;
+    default:
+        fr_make_single_children(
+            expansion, row,
+            single_child(expansion, row, fr_instance_pose(expansion, row, evaluator)),
+            expansion->level.child_count[row]);
+    }
+}

@@ -1,0 +1,51 @@
+#include "pgraph/places.h"
+
+#include "pgraph/params.h"
+
+#include <math.h>
+
+static double between(double low, double value, double high) {
+    return value < low ? low : value > high ? high : value;
+}
+
+static double density_below(const FrDensity *density, double at) {
+    double step = between(0, at, 1) * FR_DENSITY_STEPS;
+    int k = (int)step < FR_DENSITY_STEPS ? (int)step : FR_DENSITY_STEPS - 1;
+    return density->below[k] + (step - k) * (density->below[k + 1] - density->below[k]);
+}
+
+double fr_density_place(const FrDensity *density, double start, double end, double part) {
+    double low = density_below(density, start);
+    double high = density_below(density, end);
+    if (!(high > low)) {
+        return start + part * (end - start);
+    }
+    double wanted = low + part * (high - low);
+    int first = 0, last = FR_DENSITY_STEPS; // below[first] ≤ wanted, as far as known
+    while (last - first > 1) {
+        int middle = (first + last) / 2;
+        *(density->below[middle] <= wanted ? &first : &last) = middle;
+    }
+    double rise = density->below[last] - density->below[first];
+    double inside = rise > 0 ? (wanted - density->below[first]) / rise : 0;
+    return between(start, (first + between(0, inside, 1)) / FR_DENSITY_STEPS, end);
+}
+
+double fr_place_at(const FrPlaces *places, uint32_t k) {
+    double shift = 0;
+    if (places->irregularity > 0) {
+        shift = 0.5 * places->irregularity * fr_random_signed(places->key, FR_TREE_regularity, k);
+    }
+    if (places->pitch > 0) {
+        double at = places->start + ((double)k + shift) * places->pitch;
+        return between(places->start, at, places->end);
+    }
+    double part = places->is_at_ends
+                      ? (places->count > 1 ? ((double)k + shift) / (places->count - 1) : 0)
+                      : ((double)k + 0.5 + shift) / places->count;
+    part = between(0, part, 1);
+    if (places->density != NULL) {
+        return fr_density_place(places->density, places->start, places->end, part);
+    }
+    return places->start + part * (places->end - places->start);
+}

@@ -1,0 +1,360 @@
+#include "pgraph/prepare.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { CURVE_POINTS = 33, MOST_PATH_INTERNODES = 1000, INTERNODES_PER_SPAN = 8 };
+enum { MOST_SUGGESTIONS = 20 }; // as many errors as are shown
+
+static bool is_always(const FrNumber *number, double value) {
+    return number->is_constant && number->constant == value;
+}
+
+// Whether a parameter depends on anything but the path's random numbers.
+static bool depends_on_place(const FrNumber *number) {
+    if (number->is_constant) {
+        return false;
+    }
+    if (number->function == NULL) {
+        return number->from != number->to;
+    }
+    for (int var = 0; var < FR_VAR_COUNT; var++) {
+        // The plain range is walked before the function, but only t tells where.
+        if (fr_expr_uses(number->function, (FrVar)var)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void note_variation(FrPrepared *made, const FrParamTable *table) {
+    for (size_t row = 0; row < table->count; row++) {
+        if (table->rows[row].kind == FR_PARAM_NUMBER) {
+            const FrNumber *number =
+                (const FrNumber *)((const char *)made->params + table->rows[row].offset);
+            made->varies |= !number->is_constant;
+            made->uses_height |=
+                number->function != NULL && fr_expr_uses(number->function, FR_VAR_height);
+        }
+    }
+    const FrBasicParams *basic = made->params;
+    made->is_unmoved = is_always(&basic->translate_x, 0) && is_always(&basic->translate_y, 0) &&
+                       is_always(&basic->translate_z, 0) && is_always(&basic->rotate_x, 0) &&
+                       is_always(&basic->rotate_y, 0) && is_always(&basic->rotate_z, 0);
+}
+
+static int compare_names(const void *a, const void *b) {
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+FrStatus fr_find_material(const FrPgraph *graph, uint32_t component, uint32_t *material,
+                          FrDiags *diags) {
+    const char *name = fr_pgraph_basic(graph, component)->material;
+    *material = FR_NONE;
+    if (name == NULL || *name == '\0') {
+        return FR_OK;
+    }
+    guint known = GPOINTER_TO_UINT(g_hash_table_lookup(graph->material_names, name));
+    if (known > 0) {
+        *material = known - 1;
+        return FR_OK;
+    }
+    const char *near_name = NULL;
+    if (fr_diags_error_count(diags) < MOST_SUGGESTIONS) {
+        guint count;
+        gpointer *names = g_hash_table_get_keys_as_array(graph->material_names, &count);
+        qsort(names, count, sizeof *names, compare_names);
+        near_name = fr_nearest_name(name, (const char *const *)names, count);
+        g_free(names);
+    }
+    fr_diags_add(diags, FR_ERROR, "unknown-material", fr_pgraph_prototype(graph, component)->span,
+                 "there is no material “%s” for “%s”%s%s%s", name, fr_pgraph_id(graph, component),
+                 near_name != NULL ? "; is it “" : "", near_name != NULL ? near_name : "",
+                 near_name != NULL ? "”?" : "");
+    return FR_ERR_DOCUMENT;
+}
+
+static uint32_t add_section(FrPlant *plant, const FrPoints *section, bool is_closed) {
+    static const double flat[2][2] = {{-1, 0}, {1, 0}};
+    if (section->count >= 2) {
+        return fr_plant_add_profile(plant, (const double(*)[2])section->at,
+                                    (uint32_t)section->count, is_closed);
+    }
+    return is_closed ? FR_NONE : fr_plant_add_profile(plant, flat, 2, false);
+}
+
+static uint32_t add_primitive(FrPlant *plant, int primitive, vec3s size, int64_t detail) {
+    if (primitive < FR_PRIMITIVE_FIRST_SHAPE || primitive >= FR_PRIMITIVE_NONE) {
+        return FR_NONE;
+    }
+    FrShape shape = {
+        .kind = (FrShapeKind)(primitive - FR_PRIMITIVE_FIRST_SHAPE + FR_SHAPE_BOX),
+        .size = size,
+        .detail = (uint32_t)detail,
+    };
+    return fr_plant_add_shape(plant, &shape);
+}
+
+static uint32_t add_curve(FrPlant *plant, const FrCurve *curve) {
+    if (curve == NULL) {
+        return FR_NONE;
+    }
+    double points[CURVE_POINTS][2];
+    for (int k = 0; k < CURVE_POINTS; k++) {
+        points[k][0] = (double)k / (CURVE_POINTS - 1);
+        points[k][1] = fr_curve_eval(curve, points[k][0]);
+    }
+    return fr_plant_add_profile(plant, (const double(*)[2])points, CURVE_POINTS, false);
+}
+
+static FrDensity *cumulate_density(const FrCurve *curve) {
+    if (curve == NULL) {
+        return NULL;
+    }
+    FrDensity *density = g_new(FrDensity, 1);
+    double before = fmax(0, fr_curve_eval(curve, 0));
+    density->below[0] = 0;
+    for (int k = 1; k <= FR_DENSITY_STEPS; k++) {
+        double here = fmax(0, fr_curve_eval(curve, (double)k / FR_DENSITY_STEPS));
+        density->below[k] = density->below[k - 1] + 0.5 * (before + here);
+        before = here;
+    }
+    return density;
+}
+
+static double total_bend(const FrCurve *curve) {
+    if (curve == NULL) {
+        return 1;
+    }
+    double bend = 0;
+    for (int k = 0; k < CURVE_POINTS; k++) {
+        bend += fabs(fr_curve_eval(curve, (k + 0.5) / CURVE_POINTS)) / CURVE_POINTS;
+    }
+    return bend;
+}
+
+GArray *fr_stem_path_points(const FrPrototype *prototype, FrDiags *diags) {
+    const FrStemParams *stem = prototype->params;
+    GArray *points = g_array_new(FALSE, FALSE, sizeof(vec3s));
+    char **words = g_strsplit_set(stem->path != NULL ? stem->path : "", " \t\r\n", -1);
+    bool is_right = true;
+    for (char **word = words; *word != NULL && is_right; word++) {
+        vec3s point;
+        char *at = *word;
+        for (int k = 0; k < 3 && *at != '\0'; k++) {
+            char *end;
+            point.raw[k] = (float)g_ascii_strtod(at, &end);
+            is_right &= end != at && fabsf(point.raw[k]) <= 1e6f && *end == (k < 2 ? ',' : '\0');
+            at = end + (*end != '\0');
+        }
+        if (**word != '\0' && is_right) {
+            g_array_append_val(points, point);
+        }
+    }
+    g_strfreev(words);
+    if (!is_right || points->len < 2 || points->len > MOST_PATH_INTERNODES) {
+        fr_diags_add(diags, FR_ERROR, "wrong-path", prototype->span,
+                     "the path of “%s” must be two to %d points written x,y,z x,y,z", prototype->id,
+                     MOST_PATH_INTERNODES);
+        g_array_unref(points);
+        return NULL;
+    }
+    return points;
+}
+
+// The ends of the internodes of a stem along its path: evenly spaced points of the spline.
+static GArray *sample_path(const FrPrototype *prototype) {
+    const FrStemParams *stem = prototype->params;
+    GArray *points = fr_stem_path_points(prototype, NULL);
+    FR_ASSERT(points != NULL);
+    FrPath *path = fr_path_new((const vec3s *)(void *)points->data, points->len);
+    uint32_t count = stem->segments > 0
+                         ? (uint32_t)stem->segments
+                         : MIN((points->len - 1) * INTERNODES_PER_SPAN, MOST_PATH_INTERNODES);
+    g_array_set_size(points, count + 1);
+    double length = path != NULL ? fr_path_length(path) : 0;
+    for (uint32_t k = 0; k <= count; k++) {
+        vec3s tangent;
+        vec3s point = {{0, 0, 0}};
+        if (path != NULL) {
+            fr_path_at(path, length * k / count, &point, &tangent);
+        }
+        g_array_index(points, vec3s, k) = point;
+    }
+    fr_path_unref(path);
+    return points;
+}
+
+static void prepare_stem(FrPrepared *made, const FrPrototype *prototype, FrPlant *plant) {
+    const FrStemParams *stem = prototype->params;
+    made->is_stem = true;
+    made->is_string =
+        stem->primitive >= FR_PRIMITIVE_FIRST_SHAPE && stem->primitive < FR_PRIMITIVE_NONE;
+    made->profile = stem->primitive <= FR_PRIMITIVE_AREA
+                        ? add_section(plant, &stem->section, stem->primitive == FR_PRIMITIVE_TUBE)
+                        : FR_NONE;
+    // Objects of radius 1, placed with the stem's radius as their scale.
+    made->shape = add_primitive(plant, stem->primitive, (vec3s){{2, 2, 2}}, stem->detail);
+    made->bend_factor = total_bend(stem->curvature_curve);
+    if (stem->course == FR_COURSE_PATH) {
+        made->path = sample_path(prototype);
+    }
+    if (prototype->kind == FR_COMPONENT_TREE) {
+        const FrTreeParams *tree = prototype->params;
+        made->density = cumulate_density(tree->density_curve);
+    }
+}
+
+static void prepare_leaf(FrPrepared *made, const FrPgraph *graph, const FrPrototype *prototype,
+                         FrPlant *plant, GHashTable *faults) {
+    const FrLeafParams *leaf = prototype->params;
+    made->blade = (FrShape){.kind = FR_SHAPE_BLADE};
+    FrBlade *blade = &made->blade.blade;
+    blade->outline = leaf->outline_points.count >= 2
+                         ? fr_plant_add_profile(plant, (const double(*)[2])leaf->outline_points.at,
+                                                (uint32_t)leaf->outline_points.count, false)
+                         : fr_leaf_outline(plant, leaf->outline);
+    blade->along_curve = add_curve(plant, leaf->along_curve);
+    blade->across_curve = add_curve(plant, leaf->across_curve);
+    blade->segments_along = (uint16_t)leaf->segments_along;
+    blade->segments_across = (uint16_t)leaf->segments_across;
+    const FrNumber *numbers[] = {
+        &leaf->length,
+        &leaf->width,
+        &leaf->petiole_length,
+        &leaf->petiole_radius,
+        &leaf->petiole_bend,
+        &leaf->curvature_along,
+        &leaf->curvature_across,
+        &leaf->fold,
+        &leaf->twist,
+        &leaf->wave,
+        &leaf->waves,
+    };
+    bool varies = false, depends = false;
+    for (size_t k = 0; k < G_N_ELEMENTS(numbers); k++) {
+        varies |= !numbers[k]->is_constant;
+        depends |= depends_on_place(numbers[k]);
+    }
+    made->shape_choice = depends ? FR_SHAPE_EVALUATED : varies ? FR_SHAPE_VARIANT : FR_SHAPE_SAME;
+    made->variant_count = (uint32_t)leaf->variants;
+    if (depends) {
+        return;
+    }
+    uint32_t count = varies ? made->variant_count : 1;
+    made->variants = g_new(uint32_t, count);
+    FrEvaluator evaluator = {.faults = faults};
+    evaluator.component = fr_pgraph_find(graph, prototype->id);
+    for (uint32_t k = 0; k < count; k++) {
+        evaluator.vars.key = fr_variant_key(graph, made, k);
+        FrShape shape = fr_leaf_shape(made, &evaluator);
+        made->variants[k] = fr_plant_add_shape(plant, &shape);
+    }
+    made->shape = made->variants[0];
+}
+
+FrKey fr_variant_key(const FrPgraph *graph, const FrPrepared *prepared, uint32_t variant) {
+    return fr_key_child(fr_key_child(fr_key_root(graph->seed), prepared->key_word), variant);
+}
+
+FrShape fr_leaf_shape(const FrPrepared *prepared, FrEvaluator *evaluator) {
+    const FrLeafParams *leaf = prepared->params;
+    FrShape shape = prepared->blade;
+    FrBlade *blade = &shape.blade;
+#define FR_SET(field) blade->field = (float)fr_value(evaluator, &leaf->field, FR_LEAF_##field)
+    FR_SET(length);
+    FR_SET(width);
+    FR_SET(petiole_length);
+    FR_SET(petiole_radius);
+    FR_SET(petiole_bend);
+    FR_SET(curvature_along);
+    FR_SET(curvature_across);
+    FR_SET(fold);
+    FR_SET(twist);
+    FR_SET(wave);
+    FR_SET(waves);
+#undef FR_SET
+    return shape;
+}
+
+static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t component, FrPlant *plant,
+                        GHashTable *faults) {
+    const FrPrototype *prototype = fr_pgraph_prototype(graph, component);
+    const FrBasicParams *basic = prototype->params;
+    *made = (FrPrepared){
+        .kind = prototype->kind,
+        .params = prototype->params,
+        .key_word = fr_key_child(fr_key_name(prototype->id), (uint64_t)basic->seed),
+        .material = FR_NONE,
+        .profile = FR_NONE,
+        .shape = FR_NONE,
+    };
+    FrStatus status = fr_flags_parse(&made->flags, basic->only, prototype->id, (FrSpan){0}, NULL);
+    uint32_t material;
+    FR_ASSERT(status == FR_OK && fr_find_material(graph, component, &material, NULL) == FR_OK);
+    if (material != FR_NONE) {
+        made->material =
+            fr_plant_add_material(plant, g_ptr_array_index(graph->materials, material));
+    }
+    note_variation(made, fr_pgraph_table(prototype->kind));
+    switch (prototype->kind) {
+    case FR_COMPONENT_SIMPLE: {
+        const FrSimpleParams *simple = prototype->params;
+        made->is_point_set = simple->primitive <= FR_PRIMITIVE_AREA;
+        made->shape = add_primitive(plant, simple->primitive, simple->size, simple->detail);
+        if (made->is_point_set) {
+            made->profile =
+                add_section(plant, &simple->section, simple->primitive == FR_PRIMITIVE_TUBE);
+        }
+        break;
+    }
+    case FR_COMPONENT_HORN:
+    case FR_COMPONENT_TREE:
+        prepare_stem(made, prototype, plant);
+        break;
+    case FR_COMPONENT_LEAF:
+        prepare_leaf(made, graph, prototype, plant, faults);
+        break;
+    default:
+        break;
+    }
+}
+
+FrStatus fr_prepare(FrPrepared **prepared_out, const FrPgraph *graph,
+                    const FrRecursions *recursions, FrPlant *plant, GHashTable *faults,
+                    const FrContext *context) {
+    uint32_t count = fr_pgraph_count(graph);
+    FrPrepared *prepared = *prepared_out = g_new0(FrPrepared, count);
+    for (uint32_t c = 0; c < count; c++) {
+        const FrPrototype *prototype = fr_pgraph_prototype(graph, c);
+        fr_plant_add_component(plant, prototype->id, prototype->span);
+        if (!recursions->is_reached[c]) {
+            continue;
+        }
+        prepare_one(&prepared[c], graph, c, plant, faults);
+        FrStatus status = fr_limit_check(plant->shapes->len, context->limits.shapes, "shapes",
+                                         prototype->id, prototype->span, context->diags);
+        if (status != FR_OK) {
+            return status;
+        }
+    }
+    for (uint32_t k = 0; k < graph->links->len; k++) {
+        const FrPgraphLink *link = fr_pgraph_link_at(graph, k);
+        bool is_branch = link->kind == FR_LINK_BRANCH;
+        prepared[link->from].bears |= prepared[link->from].kind == FR_COMPONENT_PHIBALL ||
+                                      (prepared[link->from].kind == FR_COMPONENT_TREE && is_branch);
+    }
+    return FR_OK;
+}
+
+void fr_prepared_free(FrPrepared *prepared, uint32_t count) {
+    for (uint32_t c = 0; c < count; c++) {
+        fr_flags_clear(&prepared[c].flags);
+        g_free(prepared[c].variants);
+        g_free(prepared[c].density);
+        if (prepared[c].path != NULL) {
+            g_array_unref(prepared[c].path);
+        }
+    }
+    g_free(prepared);
+}

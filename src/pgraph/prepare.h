@@ -1,0 +1,62 @@
+/// @file prepare.h
+/// What is worked out once per component, so that instances need not.
+#pragma once
+
+#include "pgraph/evaluate.h"
+#include "pgraph/flags.h"
+#include "pgraph/graph.h"
+#include "pgraph/places.h"
+#include "pgraph/recursion.h"
+
+/// How a leaf comes by its shape.
+typedef enum FrShapeChoice {
+    FR_SHAPE_SAME,      ///< one for all
+    FR_SHAPE_VARIANT,   ///< one of some, chosen by the path
+    FR_SHAPE_EVALUATED, ///< its own: a parameter depends on where it is
+} FrShapeChoice;
+
+typedef struct FrPrepared {
+    FrComponentKind kind;
+    const void *params;
+    FrFlags flags;
+    uint64_t key_word; ///< of its id and seed
+    uint32_t material; ///< FR_NONE: inherited
+    bool varies;       ///< any parameter is not constant
+    bool uses_height;  ///< … and depends on the height above the ground
+    bool is_unmoved;   ///< its own translate and rotate are constantly nothing
+    bool is_stem;      ///< horn or tree
+    bool is_string;    ///< … made of objects
+    bool is_point_set; ///< simple with primitive tube or area
+    bool bears;        ///< multiplies at least one link
+    uint32_t profile;  ///< cross-section, of the plant; FR_NONE
+    uint32_t shape;    ///< primitive, or the one shape of a leaf, of the plant; FR_NONE
+    FrShapeChoice shape_choice;
+    uint32_t variant_count, *variants; ///< shapes for FR_SHAPE_VARIANT; owned
+    FrShape blade;                     ///< of a leaf: outline and curves filled in
+    double bend_factor;                ///< how far the stem turns for each degree of curvature
+    FrDensity *density;                ///< of a tree with a density curve; owned
+    GArray *path;                      ///< of a stem along a path: vec3s, ends of internodes; owned
+} FrPrepared;
+
+/// One for each component that is reached, of a graph that has passed its check. Adds profiles,
+/// shapes, materials and components to the plant. Fails only by the limit of shapes; *prepared is
+/// to be freed all the same.
+FrStatus fr_prepare(FrPrepared **prepared, const FrPgraph *graph, const FrRecursions *recursions,
+                    FrPlant *plant, GHashTable *faults, const FrContext *context);
+void fr_prepared_free(FrPrepared *prepared, uint32_t count);
+
+/// A leaf's shape for the instance or variant whose variables are set.
+FrShape fr_leaf_shape(const FrPrepared *prepared, FrEvaluator *evaluator);
+/// The key of a leaf's variant.
+FrKey fr_variant_key(const FrPgraph *graph, const FrPrepared *prepared, uint32_t variant);
+
+/// The material a component names: an index into the graph's, FR_NONE if it names none.
+FrStatus fr_find_material(const FrPgraph *graph, uint32_t component, uint32_t *material,
+                          FrDiags *diags);
+/// The points of a stem's `path`, at least two (vec3s), or NULL and an error.
+GArray *fr_stem_path_points(const FrPrototype *prototype, FrDiags *diags);
+/// All checks; without warnings for graphs that are about to be built.
+FrStatus fr_pgraph_check_all(const FrPgraph *graph, const FrRecursions *recursions, FrDiags *diags,
+                             bool with_warnings);
+/// Half outline of a leaf form (FrLeafParams.outline) as a profile of the plant; FR_NONE: elliptic.
+uint32_t fr_leaf_outline(FrPlant *plant, int outline);

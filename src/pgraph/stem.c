@@ -1,0 +1,220 @@
+// Measuring stems: numbers, internodes, radii, places. How they bend is in stem_grow.c.
+#include "pgraph/stem.h"
+
+#include <math.h>
+
+#define PI 3.14159265358979323846
+#define DEGREE (PI / 180)
+
+enum { MOST_ADAPTIVE = 256, INTERNODES_OF_PROFILE = 8, MOST_BEADS = 1000 };
+
+// An internode for so many radians of turn, and so many for each gnarl.
+#define BEND_PER_INTERNODE (12 * DEGREE)
+#define INTERNODES_PER_GNARL 5.0
+// A place nearer to the tip than this stands on it.
+#define AT_TIP 1e-6
+#define LONGEST 1e9 // m
+
+static uint32_t clamp_count(double count) {
+    return count >= (double)(UINT32_MAX - 1) ? UINT32_MAX - 1 : count > 0 ? (uint32_t)count : 0;
+}
+
+static uint32_t adaptive_internodes(const FrStem *stem) {
+    const FrStemParams *params = stem->prepared->params;
+    if (stem->prepared->is_string) {
+        double beads = stem->radius > 0 ? stem->length / (2 * stem->radius) : 1;
+        return (uint32_t)fmax(1, fmin(beads, MOST_BEADS));
+    }
+    double turn = fabs(stem->curvature) * stem->prepared->bend_factor;
+    double pull = fabs(stem->tropism.up) + fabs(stem->tropism.down) + fabs(stem->tropism.flat);
+    turn += PI * (1 - exp(-pull));
+    double count = turn / BEND_PER_INTERNODE;
+    if (stem->gnarl > 0) {
+        count = fmax(count, stem->gnarl_frequency * INTERNODES_PER_GNARL);
+    }
+    if (params->profile != NULL) {
+        count = fmax(count, INTERNODES_OF_PROFILE);
+    }
+    return (uint32_t)fmin(fmax(ceil(count - 1e-9), 1), MOST_ADAPTIVE);
+}
+
+static double divergence_of(const FrTreeParams *tree, FrEvaluator *evaluator) {
+    switch (tree->phyllotaxis) {
+    case FR_PHYLLOTAXIS_DISTICHOUS:
+        return PI;
+    case FR_PHYLLOTAXIS_DECUSSATE:
+        return PI / 2;
+    case FR_PHYLLOTAXIS_ALTERNATE:
+        return 144 * DEGREE;
+    case FR_PHYLLOTAXIS_CUSTOM:
+        return fr_value(evaluator, &tree->azimuth_step, FR_TREE_azimuth_step);
+    default:
+        return 137.50776405003785 * DEGREE;
+    }
+}
+
+static FrPlaces measure_places(const FrStem *stem, FrEvaluator *evaluator, double scale) {
+    const FrTreeParams *tree = stem->prepared->params;
+    double start = fr_value(evaluator, &tree->start, FR_TREE_start);
+    double end = fr_value(evaluator, &tree->end, FR_TREE_end);
+    bool is_decussate = tree->phyllotaxis == FR_PHYLLOTAXIS_DECUSSATE;
+    FrPlaces places = {
+        .whorl = (uint32_t)MAX(tree->whorl, is_decussate ? 2 : 1),
+        .start = fmin(start, end),
+        .end = fmax(start, end),
+        .irregularity = 1 - fr_value(evaluator, &tree->regularity, FR_TREE_regularity),
+        .divergence = divergence_of(tree, evaluator),
+        .is_at_ends = tree->spacing == FR_SPACING_ENDS,
+        .density = stem->prepared->density,
+        .key = evaluator->vars.key,
+    };
+    double reach = (places.end - places.start) * stem->length;
+    if (tree->mode == FR_BRANCHES_BY_NUMBER) {
+        double number = fr_value(evaluator, &tree->number, FR_TREE_number);
+        places.branches = clamp_count(floor(number + 0.5));
+    } else if (tree->mode == FR_BRANCHES_BY_DENSITY) {
+        double density = fr_value(evaluator, &tree->density, FR_TREE_density) / scale;
+        places.branches = clamp_count(floor(density * reach + 0.5));
+    } else {
+        double internode = scale * fr_value(evaluator, &tree->internode, FR_TREE_internode);
+        double count = floor(reach / internode + 1e-6) + 1;
+        places.branches = stem->length > 0 ? clamp_count(count * places.whorl) : 0;
+        places.pitch = stem->length > 0 ? internode / stem->length : 0;
+    }
+    places.count = places.branches / places.whorl + (places.branches % places.whorl != 0);
+    return places;
+}
+
+static versors turn_xyz(double x, double y, double z) {
+    versors about_x = fr_rotation_about((vec3s){{1, 0, 0}}, (float)x);
+    versors about_y = fr_rotation_about((vec3s){{0, 1, 0}}, (float)y);
+    versors about_z = fr_rotation_about((vec3s){{0, 0, 1}}, (float)z);
+    return fr_frame_step(about_z, fr_frame_step(about_y, about_x));
+}
+
+// Each step is T·R·S, so the chord to the next cross-section is T in the frame of the last. With
+// the internode's frame turned onto the chord, every internode but the first turns by the same.
+static void measure_steps(FrStem *stem, const FrStemParams *params, FrEvaluator *evaluator) {
+    vec3s by = params->step_translate;
+    double length = sqrt((double)(by.x * by.x + by.y * by.y + by.z * by.z));
+    versors turn = turn_xyz(fr_value(evaluator, &params->step_rotate_x, FR_STEM_step_rotate_x),
+                            fr_value(evaluator, &params->step_rotate_y, FR_STEM_step_rotate_y),
+                            fr_value(evaluator, &params->step_rotate_z, FR_STEM_step_rotate_z));
+    stem->step_chord = (versors){{0, 0, 0, 1}};
+    if (length > 0) {
+        float inverse = (float)(1 / length);
+        vec3s chord = {{by.x * inverse, by.y * inverse, by.z * inverse}};
+        stem->step_chord = fr_rotation_between((vec3s){{0, 0, 1}}, chord);
+    }
+    versors back = stem->step_chord;
+    back.x = -back.x;
+    back.y = -back.y;
+    back.z = -back.z;
+    stem->step_turn = fr_frame_step(fr_frame_step(back, turn), stem->step_chord);
+    stem->step_scale = fr_value(evaluator, &params->step_scale, FR_STEM_step_scale);
+    stem->step_length = length * stem->scale;
+    stem->internodes = (uint32_t)params->steps - 1;
+    double steps = stem->internodes, ratio = stem->step_scale;
+    double sum = fabs(ratio - 1) < 1e-9 ? steps : (pow(ratio, steps) - 1) / (ratio - 1);
+    stem->length = fmin(stem->step_length * sum, LONGEST);
+}
+
+static void measure_path(FrStem *stem) {
+    const GArray *path = stem->prepared->path;
+    const vec3s *points = (const vec3s *)(const void *)path->data;
+    stem->internodes = path->len - 1;
+    double length = 0;
+    for (uint32_t k = 0; k + 1 < path->len; k++) {
+        double x = (double)points[k + 1].x - (double)points[k].x;
+        double y = (double)points[k + 1].y - (double)points[k].y;
+        double z = (double)points[k + 1].z - (double)points[k].z;
+        length += sqrt(x * x + y * y + z * z);
+    }
+    stem->length = length * stem->scale;
+}
+
+static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase base) {
+    const FrStemParams *params = stem->prepared->params;
+#define FR_GET(field) fr_value(evaluator, &params->field, FR_STEM_##field)
+    bool is_relative = params->length_mode == FR_SIZE_OF_PARENT && base.has_parent;
+    stem->length = FR_GET(length) * base.scale * (is_relative ? base.parent_length : 1);
+    is_relative = params->radius_mode == FR_SIZE_OF_PARENT && base.has_parent;
+    stem->radius = FR_GET(radius) * base.scale * (is_relative ? base.parent_radius : 1);
+    stem->taper = FR_GET(taper);
+    stem->min_radius = FR_GET(min_radius);
+    stem->flatness = FR_GET(flatness);
+    stem->curvature = FR_GET(curvature);
+    stem->twist = FR_GET(twist);
+    stem->gnarl = FR_GET(gnarl);
+    stem->gnarl_frequency = FR_GET(gnarl_frequency);
+    stem->tropism.up = FR_GET(phototropism);
+    stem->tropism.down = FR_GET(gravitropism);
+    stem->tropism.flat = FR_GET(plagiotropism);
+    stem->deviation = stem->prepared->kind == FR_COMPONENT_TREE && params->course == FR_COURSE_GROWN
+                          ? FR_GET(deviation)
+                          : 0;
+#undef FR_GET
+}
+
+FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrStemBase base) {
+    const FrStemParams *params = prepared->params;
+    FrStem stem = {.prepared = prepared, .scale = base.scale, .key = evaluator->vars.key};
+    measure_numbers(&stem, evaluator, base);
+    if (params->course == FR_COURSE_STEPS) {
+        measure_steps(&stem, params, evaluator);
+    } else if (params->course == FR_COURSE_PATH) {
+        measure_path(&stem);
+    } else {
+        stem.internodes =
+            params->segments > 0 ? (uint32_t)params->segments : adaptive_internodes(&stem);
+    }
+    if (prepared->kind == FR_COMPONENT_TREE) {
+        stem.places = measure_places(&stem, evaluator, base.scale);
+        if (stem.deviation > 0 && stem.places.count > 0) {
+            double last = fr_place_at(&stem.places, stem.places.count - 1);
+            stem.gaps = stem.places.count + (last < 1 - AT_TIP);
+            uint32_t each = (stem.internodes + stem.gaps - 1) / stem.gaps;
+            stem.internodes = clamp_count((double)each * stem.gaps);
+        }
+    }
+    return stem;
+}
+
+double fr_stem_radius(const FrStem *stem, double at) {
+    const FrStemParams *params = stem->prepared->params;
+    double radius;
+    if (params->course == FR_COURSE_STEPS) {
+        radius = stem->radius * fmin(pow(stem->step_scale, at * stem->internodes), 1e6);
+    } else if (params->profile != NULL) {
+        radius = stem->radius * fr_curve_eval(params->profile, at);
+    } else {
+        radius = stem->radius * (1 - stem->taper * at);
+    }
+    return fmax(radius, stem->min_radius);
+}
+
+// The stretch between two places that bend the stem.
+static void gap_ends(const FrStem *stem, uint32_t gap, double ends[2]) {
+    ends[0] = gap > 0 ? fr_place_at(&stem->places, gap - 1) : 0;
+    ends[1] = gap + 1 < stem->gaps ? fr_place_at(&stem->places, gap) : 1;
+}
+
+double fr_stem_node_end(const FrStem *stem, uint32_t k) {
+    if (stem->gaps == 0) {
+        return (double)(k + 1) / stem->internodes;
+    }
+    uint32_t each = stem->internodes / stem->gaps;
+    double ends[2];
+    gap_ends(stem, k / each, ends);
+    return ends[0] + (ends[1] - ends[0]) * (k % each + 1) / each;
+}
+
+uint32_t fr_stem_node_of(const FrStem *stem, double at, uint32_t place) {
+    if (stem->gaps > 0) {
+        uint32_t each = stem->internodes / stem->gaps;
+        return (place + 1) * each - 1;
+    }
+    double k = ceil(at * stem->internodes - 1e-9) - 1;
+    uint32_t last = stem->internodes > 0 ? stem->internodes - 1 : 0;
+    return k <= 0 ? 0 : k >= last ? last : (uint32_t)k;
+}

@@ -1,0 +1,35 @@
+#include "pgraph/tropism.h"
+
+#include <math.h>
+
+#define PI 3.14159265358979323846
+
+// Weaker than this in sum, the exponential and its limit cannot be told apart.
+#define WEAK 1e-9
+// A stem nearer to the vertical than this has no plane to turn in.
+#define VERTICAL 1e-7
+
+double fr_tropism_angle(FrTropism tropism, double angle, double step) {
+    double sum = tropism.up + tropism.down + tropism.flat;
+    double pull = tropism.down * PI + tropism.flat * (0.5 * PI);
+    double turned;
+    if (fabs(sum) < WEAK) {
+        turned = angle + pull * step;
+    } else {
+        double rest = pull / sum;
+        turned = rest + (angle - rest) * exp(-sum * step);
+    }
+    return turned < 0 ? 0 : turned > PI ? PI : turned;
+}
+
+versors fr_tropism_turn(FrTropism tropism, versors frame, double step) {
+    vec3s heading = fr_frame_heading(frame);
+    double x = (double)heading.x, y = (double)heading.y;
+    double level = sqrt(x * x + y * y);
+    double angle = atan2(level, (double)heading.z);
+    float turn = (float)(fr_tropism_angle(tropism, angle, step) - angle);
+    // About this axis the stem turns away from the vertical.
+    vec3s axis = level > VERTICAL ? (vec3s){{(float)(-y / level), (float)(x / level), 0}}
+                                  : fr_frame_left(frame);
+    return fr_rotation_about(axis, turn);
+}
