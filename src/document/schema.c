@@ -154,7 +154,8 @@ static void append_element(GString *out, FrElementId id) {
            "  <xs:element name=\"%s\">\n    <xs:annotation><xs:documentation>%s"
            "</xs:documentation></xs:annotation>\n",
            element.name, element.meaning);
-    APPEND(out, "    <xs:complexType%s>\n", element.has_text ? " mixed=\"true\"" : "");
+    g_string_append_printf(out, "    <xs:complexType%s>\n",
+                           element.has_text ? " mixed=\"true\"" : "");
     if (element.children != 0) {
         append_children(out, &element);
     }

@@ -1,9 +1,8 @@
-/// Is it UTF-8, and is it XML? libxml2 answers the second; it reads the source in place, without
-/// network, entities or tree, and stops at the first thing wrong.
+/// Is it UTF-8, and is it XML? libxml2 answers the second; it reads without
+/// network, entities or tree, piece by piece, and stops at the first thing wrong.
 #include "document/tree.h"
 
 #include <libxml/parser.h>
-#include <libxml/parserInternals.h>
 #include <string.h>
 
 // ---- encoding ---------------------------------------------------------------------------------
@@ -75,8 +74,24 @@ typedef struct Judge {
     xmlParserCtxt *parser;
     FrSource *source;
     FrDiags *diags;
+    size_t given; ///< bytes that libxml2 has asked for
     bool is_wrong;
 } Judge;
+
+static int give_bytes(void *user, char *buffer, int length) {
+    Judge *judge = user;
+    size_t size;
+    const char *text = fr_source_text(judge->source, &size);
+    size_t count = MIN((size_t)length, size - judge->given);
+    memcpy(buffer, text + judge->given, count);
+    judge->given += count;
+    return (int)count;
+}
+
+static int close_bytes(void *user) {
+    (void)user;
+    return 0;
+}
 
 /// What libxml2 says, as one line without its full stop.
 static char *message_of(const xmlError *error) {
@@ -93,9 +108,9 @@ static void on_error(void *user, xmlError *error) {
     }
     judge->is_wrong = true;
     size_t size;
-    const char *text = fr_source_text(judge->source, &size);
-    const char *at = (const char *)judge->parser->input->cur;
-    size_t offset = at >= text && at <= text + size ? (size_t)(at - text) : size;
+    fr_source_text(judge->source, &size);
+    long consumed = xmlByteConsumed(judge->parser);
+    size_t offset = consumed < 0 ? size : MIN((size_t)consumed, size);
     char *message = message_of(error);
     fr_diags_add(judge->diags, FR_ERROR, "not-well-formed", span_at(judge->source, offset, 0),
                  "not well-formed XML: %s", message);
@@ -110,26 +125,22 @@ static void ignore_warning(void *user, const char *format, ...) {
 
 FrStatus fr_xml_check_well_formed(FrSource *source, FrDiags *diags) {
     size_t size;
-    const char *text = fr_source_text(source, &size);
+    fr_source_text(source, &size);
     if (size == 0) {
         fr_diags_add(diags, FR_ERROR, "not-well-formed", span_at(source, 0, 0),
                      "the document is empty");
         return FR_ERR_DOCUMENT;
     }
     xmlInitParser();
-    xmlParserCtxt *parser = xmlNewParserCtxt();
-    Judge judge = {.parser = parser, .source = source, .diags = diags};
-    memset(parser->sax, 0, sizeof *parser->sax);
-    parser->sax->initialized = XML_SAX2_MAGIC;
-    parser->sax->serror = on_error;
-    parser->sax->warning = ignore_warning;
-    parser->userData = &judge;
+    Judge judge = {.source = source, .diags = diags};
+    xmlSAXHandler handler = {
+        .initialized = XML_SAX2_MAGIC, .serror = on_error, .warning = ignore_warning};
+    xmlParserCtxt *parser = xmlCreateIOParserCtxt(&handler, &judge, give_bytes, close_bytes, &judge,
+                                                  XML_CHAR_ENCODING_UTF8);
+    FR_ASSERT(parser != NULL);
+    judge.parser = parser;
     // HUGE lifts fixed limits on long texts; ours on bytes, elements and nesting already hold.
     xmlCtxtUseOptions(parser, XML_PARSE_NONET | XML_PARSE_HUGE);
-    xmlParserInputBuffer *buffer =
-        xmlParserInputBufferCreateStatic(text, (int)size, XML_CHAR_ENCODING_NONE);
-    xmlParserInput *input = xmlNewIOInputStream(parser, buffer, XML_CHAR_ENCODING_NONE);
-    inputPush(parser, input);
     xmlParseDocument(parser);
     if (!judge.is_wrong && !parser->wellFormed) {
         judge.is_wrong = true;

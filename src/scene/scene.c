@@ -99,7 +99,7 @@ static FrStatus build_place(Build *build, const FrPlace *place) {
         return FR_CANCELLED;
     }
     FrStand stand = {.at = {(double)place->at.x, (double)place->at.y, (double)place->at.z},
-                     .turn = place->turn * G_PI / 180,
+                     .turn = place->turn,
                      .scale = place->scale};
     FrStatus status = use_plant(build, definition, place->seed, &stand.plant);
     if (status == FR_OK) {
