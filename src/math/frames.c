@@ -7,14 +7,15 @@
 
 #include <math.h>
 
-// Squared lengths below this have no direction.
-#define TINY 1e-20f
+// Squared lengths below these have no direction that rounding would not decide.
+#define SHORTEST_STEP 1e-20f
+#define SHORTEST_MIRROR 1e-10f
 
 versors fr_frame_transport(versors frame, vec3s point0, vec3s point1, vec3s tangent1) {
     vec3s tangent0 = fr_frame_heading(frame);
     vec3s step = glms_vec3_sub(point1, point0);
     float squared = glms_vec3_dot(step, step);
-    if (!(squared > TINY)) {
+    if (!(squared > SHORTEST_STEP)) {
         return fr_frame_step(fr_rotation_between(tangent0, tangent1), frame);
     }
     // First mirror: the plane halfway between the points, normal to the chord.
@@ -24,12 +25,9 @@ versors fr_frame_transport(versors frame, vec3s point0, vec3s point1, vec3s tang
     // Second mirror: takes the reflected tangent to the tangent wanted.
     vec3s mirror2 = glms_vec3_sub(tangent1, reflected);
     squared = glms_vec3_dot(mirror2, mirror2);
-    if (!(squared > TINY)) {
-        // The frame moved sideways: mirror its y axis, which leaves the other two in place.
-        vec3s side = fr_frame_up(frame);
-        reach = 2 * glms_vec3_dot(mirror1, side);
-        mirror2 = glms_vec3_sub(side, glms_vec3_scale(mirror1, reach));
-        squared = glms_vec3_dot(mirror2, mirror2);
+    if (!(squared > SHORTEST_MIRROR)) {
+        // A step sideways, of which the method can make any turn: take the smallest.
+        return fr_frame_step(fr_rotation_between(tangent0, tangent1), frame);
     }
     mirror2 = glms_vec3_scale(mirror2, 1 / sqrtf(squared));
     vec3s axis = glms_vec3_cross(mirror1, mirror2);

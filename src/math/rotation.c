@@ -1,14 +1,12 @@
-// Rotations that take one direction to another.
-// The half-vector form stays accurate up to opposite directions, where cross and dot product
-// both lose their digits.
+// Rotations that take one direction to another, accurate also where the two are nearly opposite.
 #include "frond/vector.h"
 
 #include <cglm/struct.h>
 
 #include <math.h>
 
-// Below this squared length of from + to the two count as opposite.
-#define OPPOSITE 1e-12f
+// Below this sine of the angle between them two directions count as opposite.
+#define OPPOSITE 1e-6f
 
 // A unit vector perpendicular to unit `v`, made with the world axis farthest from it.
 static vec3s perpendicular(vec3s v) {
@@ -19,16 +17,27 @@ static vec3s perpendicular(vec3s v) {
     return glms_vec3_normalize(glms_vec3_cross(v, axis));
 }
 
-versors fr_rotation_between(vec3s from, vec3s to) {
-    vec3s half = glms_vec3_add(from, to);
-    float squared = glms_vec3_dot(half, half);
-    if (!(squared > OPPOSITE)) {
-        vec3s axis = perpendicular(from);
+// The formula of the other half loses its digits here: the sine of the half angle keeps them.
+static versors rotation_beyond_right_angle(vec3s from, vec3s cross, float cosine) {
+    // Across so small a sine the rounding of the cross product leans towards `from`.
+    vec3s axis = glms_vec3_sub(cross, glms_vec3_scale(from, glms_vec3_dot(cross, from)));
+    float length = glms_vec3_norm(axis);
+    if (!(length > OPPOSITE)) {
+        axis = perpendicular(from);
         return (versors){{axis.x, axis.y, axis.z, 0}};
     }
-    half = glms_vec3_scale(half, 1 / sqrtf(squared));
-    vec3s axis = glms_vec3_cross(from, half);
-    return (versors){{axis.x, axis.y, axis.z, glms_vec3_dot(from, half)}};
+    float half_sine = sqrtf(0.5f * (1 - cosine));
+    axis = glms_vec3_scale(axis, half_sine / length);
+    return glms_quat_normalize((versors){{axis.x, axis.y, axis.z, 0.5f * length / half_sine}});
+}
+
+versors fr_rotation_between(vec3s from, vec3s to) {
+    vec3s cross = glms_vec3_cross(from, to);
+    float cosine = glms_vec3_dot(from, to);
+    if (cosine < 0) {
+        return rotation_beyond_right_angle(from, cross, cosine);
+    }
+    return glms_quat_normalize((versors){{cross.x, cross.y, cross.z, 1 + cosine}});
 }
 
 versors fr_frame_from_heading(vec3s heading, vec3s up) {
@@ -38,7 +47,7 @@ versors fr_frame_from_heading(vec3s heading, vec3s up) {
     // A turn about the heading brings y as near to `up` as it goes.
     float along_left = glms_vec3_dot(up, left);
     float along_forward = glms_vec3_dot(up, forward);
-    if (!(along_left * along_left + along_forward * along_forward > OPPOSITE)) {
+    if (!(along_left * along_left + along_forward * along_forward > OPPOSITE * OPPOSITE)) {
         return swing;
     }
     float half_angle = 0.5f * atan2f(-along_left, along_forward);
