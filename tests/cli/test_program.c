@@ -1,0 +1,233 @@
+/// Commands, what they print and how they end.
+#include "program.h"
+
+#include <glib.h>
+#include <jansson.h>
+#include <signal.h>
+
+typedef struct Command {
+    const char *arguments;
+    int exit;
+    const char *out, *err; ///< patterns with * and ?
+} Command;
+
+static const Command commands[] = {
+    // help
+    {"", 2, "", "usage: frond VERB*build*render*"},
+    {"-h", 0, "usage: frond VERB*build*render*check*info*presets*new*", ""},
+    {"help", 0, "usage: frond VERB*", ""},
+    {"build -h", 0, "usage: frond build DOC*--leaves*.glb .gltf*", ""},
+    {"info whatever --help", 0, "usage: frond info*", ""},
+    {"--version", 0, "frond 0.*", ""},
+    // verbs and options that are not there
+    {"biuld x", 2, "", "frond: there is no verb 'biuld'; did you mean 'build'?*"},
+    {"xyzzy", 2, "", "frond: there is no verb 'xyzzy'*build*render*"},
+    {"derive x.l", 2, "", "frond: 'derive' is not in this version*build*"},
+    {"vary x.frond", 2, "", "frond: 'vary' is not in this version*"},
+    {"convert a b", 2, "", "frond: 'convert' is not in this version*"},
+    {"build x --sede 3", 2, "", "frond: unknown option '--sede'; did you mean '--seed'?\n"},
+    {"build x -z", 2, "", "frond: unknown option '--z'*"},
+    {"check x -o y", 2, "", "frond: 'check' does not take --output\n"},
+    {"build", 2, "", "frond: 'build' needs a file*"},
+    {"build a b", 2, "", "frond: 'b' is too much*"},
+    // values
+    {"build x --seed", 2, "", "frond: --seed needs a value*"},
+    {"build x --seed=-1", 2, "", "frond: --seed takes a whole number*"},
+    {"build x --seed 1.5", 2, "", "frond: --seed takes a whole number*"},
+    {"build x --threads 0", 2, "", "frond: --threads takes*"},
+    {"build x --lod 9", 2, "", "frond: --lod takes*"},
+    {"build x --quiet=yes", 2, "", "frond: --quiet takes no value\n"},
+    {"build x --leaves merge", 2, "", "frond: --leaves takes*did you mean 'merged'?\n"},
+    {"build x --limit instance=3", 2, "", "frond: *did you mean 'instances'?\n"},
+    {"build x --limit nodes", 2, "", "frond: --limit takes NAME=VALUE*"},
+    {"build x --set a.b", 2, "", "frond: --set takes PATH=VALUE*"},
+    {"build x --diag=xml", 2, "", "frond: --diag takes text or json*"},
+    {"render x -o a.png --size 10", 2, "", "frond: --size takes WIDTHxHEIGHT*"},
+    {"render x -o a.png --size 0x10", 2, "", "frond: --size takes WIDTHxHEIGHT*"},
+    {"build x -o a.xyz", 2, "", "frond: 'a.xyz': no format of that extension*.glb*"},
+    {"render x -o a.jpg", 2, "", "frond: 'a.jpg': pictures are written as .png\n"},
+    {"render x", 2, "", "frond: render needs one picture*"},
+    // documents
+    {"check $S/examples/figure2.frond", 0, "", ""},
+    {"check none.frond", 1, "", "*none.frond*error:*"},
+    {"check $S/examples/figure2.frond none.frond", 1, "", "*none.frond*"},
+    {"build $S/examples/figure2.frond", 0, "", ""},
+    {"build $S/examples/figure2.frond --limit instances=11", 3, "", "*[limit-instances]*"},
+    {"build $S/examples/figure2.frond --set D.lenght=1", 2, "", "*did you mean 'length'?*"},
+    {"build $S/examples/figure2.frond --set D.length=long", 1, "", "*figure2.frond:*length=*^*"},
+    {"build $S/examples/figure2.frond --set F.length=1", 2, "", "*nothing is called 'F'*"},
+    {"check none.frond --diag=json", 1, "", "[*\"severity\":*\"error\"*]\n"},
+    {"build $S/examples/figure2.frond -o none/f.glb", 4, "", "*none/f.glb*"},
+    {"render $S/examples/figure2.frond -o f.png --camera frnt", 2, "", "*did you mean 'front'?\n"},
+    // what is in it
+    {"info $S/examples/figure2.frond", 0, "*12 instances*D*horn*9*in 3 chains of 3\n*", ""},
+    {"info none.glb", 1, "", "*none.glb*"},
+    {"schema", 0, "<?xml*<xs:schema*name=\"phiball\"*</xs:schema>\n", ""},
+    {"reference", 0, "# The `.frond` document*## `<phiball>`*", ""},
+};
+
+static void test_commands(void) {
+    char *previous;
+    char *folder = enter_folder(&previous);
+    for (size_t i = 0; i < G_N_ELEMENTS(commands); i++) {
+        const Command *command = &commands[i];
+        Run did = run(command->arguments);
+        g_assert_cmpint(did.exit, ==, command->exit);
+        g_assert_true(g_pattern_match_simple(command->out, did.out));
+        g_assert_true(g_pattern_match_simple(command->err, did.err));
+        clear(&did);
+    }
+    leave_folder(folder, previous);
+}
+
+static json_t *json_of(const char *arguments) {
+    Run did = run(arguments);
+    g_assert_cmpint(did.exit, ==, 0);
+    json_t *json = json_loads(did.out, 0, NULL);
+    g_assert_nonnull(json);
+    clear(&did);
+    return json;
+}
+
+static json_int_t number(const json_t *json, const char *key) {
+    const json_t *value = json_object_get(json, key);
+    g_assert_true(json_is_integer(value));
+    return json_integer_value(value);
+}
+
+static void test_figure2(void) {
+    char *previous;
+    char *folder = enter_folder(&previous);
+    json_t *info = json_of("info $S/examples/figure2.frond --json");
+    json_t *plant = json_array_get(json_object_get(info, "plants"), 0);
+    g_assert_cmpint(number(plant, "instances"), ==, 12);
+    json_t *component = json_array_get(json_object_get(plant, "components"), 3);
+    g_assert_cmpstr(json_string_value(json_object_get(component, "id")), ==, "D");
+    g_assert_cmpint(number(component, "instances"), ==, 9);
+    json_t *chains = json_object_get(component, "chains");
+    g_assert_cmpint(number(chains, "count"), ==, 3);
+    g_assert_cmpint(number(chains, "shortest"), ==, 3);
+    g_assert_cmpint(number(chains, "longest"), ==, 3);
+    json_decref(info);
+    leave_folder(folder, previous);
+}
+
+/// --stats agrees with what the model holds and with `info` of the model.
+static void test_stats(void) {
+    char *previous;
+    char *folder = enter_folder(&previous);
+    json_t *stats = json_of("build $S/examples/figure2.frond -o f.glb -o f.ply --stats -");
+    static const char *const keys[] = {"seed",   "threads",  "instances", "plants",
+                                       "axes",   "nodes",    "organs",    "shapes",
+                                       "meshes", "vertices", "triangles", "peak_bytes"};
+    for (size_t i = 0; i < G_N_ELEMENTS(keys); i++) {
+        g_assert_cmpint(number(stats, keys[i]), >=, 0);
+    }
+    g_assert_cmpint(number(stats, "instances"), ==, 12);
+    g_assert_cmpint(number(stats, "plants"), ==, 1);
+    g_assert_cmpint(number(json_object_get(stats, "by_component"), "D"), ==, 9);
+    g_assert_cmpuint(strlen(json_string_value(json_object_get(stats, "digest"))), ==, 16);
+    static const char *const seconds[] = {"read", "build", "skin", "write", "total"};
+    for (size_t i = 0; i < G_N_ELEMENTS(seconds); i++) {
+        g_assert_true(json_is_real(json_object_get(json_object_get(stats, "seconds"), seconds[i])));
+    }
+    json_t *model = json_of("info f.glb --json");
+    g_assert_cmpint(number(model, "triangles"), ==, number(stats, "triangles"));
+    g_assert_cmpint(number(model, "meshes"), ==, number(stats, "meshes"));
+    g_assert_cmpint(number(model, "vertices"), ==, number(stats, "vertices"));
+    g_assert_true(g_file_test("f.ply", G_FILE_TEST_IS_REGULAR));
+    json_decref(model);
+    json_decref(stats);
+    leave_folder(folder, previous);
+}
+
+static char *digest_with(const char *options) {
+    char *arguments = g_strconcat("build $S/examples/figure2.frond --stats - ", options, NULL);
+    json_t *stats = json_of(arguments);
+    char *digest = g_strdup(json_string_value(json_object_get(stats, "digest")));
+    json_decref(stats);
+    g_free(arguments);
+    return digest;
+}
+
+static void test_same_seed(void) {
+    char *previous;
+    char *folder = enter_folder(&previous);
+    char *one = digest_with("--threads 1");
+    char *three = digest_with("--threads 3");
+    char *set = digest_with("--set figure2.seed=5 --set 'D.length=0.3 ~ 0.1'");
+    char *seed = digest_with("--seed 5 --set 'D.length=0.3 ~ 0.1'");
+    g_assert_cmpstr(one, ==, three);
+    g_assert_cmpstr(one, !=, set);
+    g_assert_cmpstr(set, ==, seed);
+    g_free(one);
+    g_free(three);
+    g_free(set);
+    g_free(seed);
+    leave_folder(folder, previous);
+}
+
+static void test_new(void) {
+    char *previous;
+    char *folder = enter_folder(&previous);
+    g_mkdir("presets", 0777);
+    g_assert_true(g_file_set_contents(
+        "presets/oak.frond", "<!-- An oak\n  of no kind -->\n<frond version='1'/>\n", -1, NULL));
+    g_setenv("FROND_DATA", ".", TRUE);
+    static const Command rows[] = {
+        {"presets", 0, "oak              An oak\n", ""},
+        {"presets --json", 0, "[*\"name\": \"oak\"*\"title\": \"An oak\"*]\n", ""},
+        {"new mine", 2, "", "frond: new needs --preset*"},
+        {"new mine --preset oka", 2, "", "frond: there is no preset 'oka'; did you mean 'oak'?\n"},
+        {"new mine --preset ../oak", 2, "", "frond: there is no preset*"},
+        {"new mine --preset oak", 0, "mine.frond\n", ""},
+        {"new mine.frond --preset oak", 4, "", "frond: 'mine.frond' is there already*"},
+        {"new none/mine --preset oak", 4, "", "frond: cannot write 'none/mine.frond'*"},
+        {"check mine.frond", 0, "", ""},
+    };
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        Run did = run(rows[i].arguments);
+        g_assert_cmpint(did.exit, ==, rows[i].exit);
+        g_assert_true(g_pattern_match_simple(rows[i].out, did.out));
+        g_assert_true(g_pattern_match_simple(rows[i].err, did.err));
+        clear(&did);
+    }
+    g_setenv("FROND_DATA", "none", TRUE);
+    Run did = run("presets");
+    g_assert_cmpint(did.exit, ==, 4);
+    clear(&did);
+    g_unsetenv("FROND_DATA");
+    g_remove("presets/oak.frond");
+    leave_folder(folder, previous);
+}
+
+/// Ctrl-C in the middle of a long picture: ends by the signal, leaves no file.
+static void test_interrupted(void) {
+    char *previous;
+    char *folder = enter_folder(&previous);
+    pid_t child = start("render $S/examples/figure2.frond -o f.png --size 4000x4000 "
+                        "--samples 65536 --threads 1");
+    g_usleep(700000);
+    kill(child, SIGINT);
+    Run did = finish(child);
+    g_assert_cmpint(did.signal, ==, SIGINT);
+    g_assert_cmpstr(did.err, ==, "frond: stopped\n");
+    clear(&did);
+    g_remove("out.txt");
+    g_remove("err.txt");
+    GDir *directory = g_dir_open(".", 0, NULL);
+    g_assert_null(g_dir_read_name(directory));
+    g_dir_close(directory);
+    leave_folder(folder, previous);
+}
+
+int main(int argc, char **argv) {
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/cli/commands end as they should and say why", test_commands);
+    g_test_add_func("/cli/figure 2 has nine of D in three chains of three", test_figure2);
+    g_test_add_func("/cli/statistics agree with the model", test_stats);
+    g_test_add_func("/cli/a seed gives the same plant for any number of threads", test_same_seed);
+    g_test_add_func("/cli/a preset begins a document and overwrites none", test_new);
+    g_test_add_func("/cli/an interrupt leaves no file", test_interrupted);
+    return g_test_run();
+}
