@@ -1,0 +1,229 @@
+// Leaf blades, petals and sepals: a strip along a curved midrib, curved across.
+// Lintermann, Deussen. Interactive Modeling of Plants. IEEE CG&A 19(1), 1999: blades from an
+// outline, a longitudinal and a lateral curvature.
+//
+// The midrib is m(s) = ∫ (sin θ, cos θ) in the plane of y and z with θ(s) = θ0 + ∫ κ; across it
+// runs a curve of the angle φ(t) = fold + ∫ κ from the midrib to each margin. Both keep arc length.
+// A curve over either curvature spreads the whole turn by its values: κ = turn · y(x) / ∫ |y|.
+#include "skin/outline.h"
+#include "skin/shape.h"
+
+#include <cglm/struct.h>
+
+#include <math.h>
+
+enum { FINE = 64, ROWS_MOST = 128, ACROSS_MOST = 32 };
+
+/// A plane curve with the turn and the position at even steps.
+typedef struct FrBent {
+    double angle[FINE + 1], x[FINE + 1], y[FINE + 1]; ///< x straight on, y aside
+} FrBent;
+
+typedef struct FrBladeForm {
+    const FrBlade *blade;
+    double width, half; ///< m
+    FrBent along;       ///< of length 1
+    FrBent across;      ///< of half a width, length 1
+    vec3s base;         ///< end of the petiole
+} FrBladeForm;
+
+static double curve_at(const FrProfile *curve, double x) {
+    const double(*p)[2] = (const double(*)[2])curve->points;
+    if (x <= p[0][0]) {
+        return p[0][1];
+    }
+    for (uint32_t i = 0; i + 1 < curve->count; i++) {
+        if (x <= p[i + 1][0]) {
+            double run = p[i + 1][0] - p[i][0];
+            return run > 0.0 ? p[i][1] + (x - p[i][0]) / run * (p[i + 1][1] - p[i][1]) : p[i][1];
+        }
+    }
+    return p[curve->count - 1][1];
+}
+
+static double finite_or_zero(double value) {
+    return isfinite(value) ? value : 0.0;
+}
+
+static void bend(FrBent *bent, const FrPlant *plant, double start, double turn, uint32_t curve) {
+    const FrProfile *profile =
+        curve < plant->profiles->len ? &g_array_index(plant->profiles, FrProfile, curve) : NULL;
+    double step[FINE], all = 0.0;
+    for (int i = 0; i < FINE; i++) {
+        double x = (i + 0.5) / FINE;
+        bool is_even = profile == NULL || profile->count == 0;
+        step[i] = is_even ? 1.0 : finite_or_zero(curve_at(profile, x));
+        all += fabs(step[i]);
+    }
+    bent->angle[0] = start;
+    bent->x[0] = bent->y[0] = 0.0;
+    for (int i = 0; i < FINE; i++) {
+        double turned = all > 0.0 ? turn * step[i] / all : 0.0;
+        double middle = bent->angle[i] + 0.5 * turned;
+        bent->angle[i + 1] = bent->angle[i] + turned;
+        // The chord of an arc is sin(a)/a of its length.
+        double half = 0.5 * turned, chord = fabs(half) > 1e-6 ? sin(half) / half : 1.0;
+        bent->x[i + 1] = bent->x[i] + chord * cos(middle) / FINE;
+        bent->y[i + 1] = bent->y[i] + chord * sin(middle) / FINE;
+    }
+}
+
+static void bent_at(const FrBent *bent, double at, double *x, double *y, double *angle) {
+    double fine = at * FINE;
+    int low = (int)fmin(fmax(fine, 0.0), FINE - 1);
+    double part = fine - low, turned = part * (bent->angle[low + 1] - bent->angle[low]);
+    double middle = bent->angle[low] + 0.5 * turned;
+    *angle = bent->angle[low] + turned;
+    *x = bent->x[low] + part / FINE * cos(middle);
+    *y = bent->y[low] + part / FINE * sin(middle);
+}
+
+// The point of the blade at `along` (0 to 1) and `aside` metres to the right of the midrib.
+static void surface(const FrBladeForm *form, double along, double aside, double point[3]) {
+    const FrBlade *blade = form->blade;
+    double forth, lift, theta, out, up, phi;
+    bent_at(&form->along, along, &forth, &lift, &theta);
+    bent_at(&form->across, fabs(aside) / form->half, &out, &up, &phi);
+    double x = copysign(out * form->half, -aside), y = up * form->half;
+    double part = aside / form->half, phase = aside < 0.0 ? 0.35 : 0.0;
+    y += blade->wave * form->width * part * part * sin(2.0 * G_PI * (blade->waves * along + phase));
+    double cosine = cos(blade->twist * along), sine = sin(blade->twist * along);
+    double turned_x = cosine * x - sine * y, turned_y = sine * x + cosine * y;
+    point[0] = form->base.x + turned_x;
+    point[1] = form->base.y + blade->length * lift + turned_y * cos(theta);
+    point[2] = form->base.z + blade->length * forth - turned_y * sin(theta);
+}
+
+static vec3s surface_normal(const FrBladeForm *form, double along, double aside) {
+    const double step = 1e-3;
+    double base[3], tip[3], left[3], right[3], a[3], b[3];
+    surface(form, fmax(along - step, 0.0), aside, base);
+    surface(form, fmin(along + step, 1.0), aside, tip);
+    surface(form, along, aside - step * form->half, left);
+    surface(form, along, aside + step * form->half, right);
+    for (int k = 0; k < 3; k++) {
+        a[k] = right[k] - left[k];
+        b[k] = tip[k] - base[k];
+    }
+    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
+    double z = a[0] * b[1] - a[1] * b[0], length = sqrt(x * x + y * y + z * z);
+    if (!(length > 0.0)) {
+        return (vec3s){{0, 1, 0}};
+    }
+    return (vec3s){{(float)(x / length), (float)(y / length), (float)(z / length)}};
+}
+
+static uint32_t put_vertex(FrShapeMesh *mesh, const FrBladeForm *form, double along, double aside) {
+    double u = fmin(fmax(0.5 + aside / form->width, 0.0), 1.0), point[3];
+    surface(form, along, aside, point);
+    vec3s position = {{(float)point[0], (float)point[1], (float)point[2]}};
+    return fr_shape_vertex(mesh, position, surface_normal(form, along, aside), (float)u,
+                           (float)(1.0 - along));
+}
+
+// From the left margin to the right: one vertex where the blade has no width.
+static uint32_t put_row(FrShapeMesh *mesh, const FrBladeForm *form, const FrOutlineRow *row,
+                        uint32_t across, uint32_t columns, uint32_t *first) {
+    *first = mesh->vertex_count;
+    if (row->left + row->right < 2e-3) {
+        put_vertex(mesh, form, row->along, 0.0);
+        return 1;
+    }
+    // A margin may touch the midrib, but columns stay apart.
+    double left = fmax(row->left, 1e-3) * form->width, right = fmax(row->right, 1e-3) * form->width;
+    for (uint32_t i = 0; i < columns; i++) {
+        double part = columns == 2 ? (i == 0 ? -1.0 : 1.0) : (double)i / across - 1.0;
+        put_vertex(mesh, form, row->along, part * (part < 0.0 ? left : right));
+    }
+    return columns;
+}
+
+static void join_rows(FrShapeMesh *mesh, uint32_t low, uint32_t low_count, uint32_t high,
+                      uint32_t high_count) {
+    uint32_t columns = MAX(low_count, high_count);
+    for (uint32_t i = 0; i + 1 < columns; i++) {
+        uint32_t a = low_count == 1 ? low : low + i, b = low_count == 1 ? low : low + i + 1;
+        uint32_t d = high_count == 1 ? high : high + i, c = high_count == 1 ? high : high + i + 1;
+        fr_shape_triangle(mesh, a, b, c);
+        fr_shape_triangle(mesh, a, c, d);
+    }
+}
+
+static void lay_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBladeForm *form,
+                      const FrDetail *detail) {
+    const FrBlade *blade = form->blade;
+    FrOutline outline;
+    FrOutlineRow rows[ROWS_MOST + 1];
+    fr_outline_init(&outline, plant, blade->outline);
+    if (!(outline.area > 1e-6)) {
+        return;
+    }
+    uint32_t waves = blade->wave != 0.0F ? (uint32_t)fminf(4.0F * fabsf(blade->waves), 64.0F) : 0;
+    uint32_t along = fr_shape_segments(MAX(blade->segments_along, waves), 1, ROWS_MOST, detail);
+    uint32_t across = fr_shape_segments(blade->segments_across, 1, ACROSS_MOST, detail);
+    bool is_level = blade->curvature_across == 0.0F && blade->fold == 0.0F && blade->wave == 0.0F &&
+                    blade->twist == 0.0F;
+    // Two columns do where nothing bends across, and from far away.
+    uint32_t columns = across == 1 && (is_level || detail->lod > 1) ? 2 : 2 * across + 1;
+    fr_outline_rows(&outline, along, rows);
+    uint32_t low = 0, low_count = 0;
+    for (uint32_t i = 0; i <= along; i++) {
+        uint32_t first, count = put_row(mesh, form, &rows[i], across, columns, &first);
+        if (i > 0) {
+            join_rows(mesh, low, low_count, first, count);
+        }
+        low = first;
+        low_count = count;
+    }
+}
+
+// A tube of three sides, one flat strip from far away. It takes its colour from the midrib in the
+// lower part of the picture.
+static void lay_petiole(FrShapeMesh *mesh, const FrBlade *blade, const FrBent *bent,
+                        const FrDetail *detail) {
+    bool is_strip = detail->lod > 0;
+    uint32_t segments = fabsf(blade->petiole_bend) > 0.2F && !is_strip ? 3 : 1;
+    uint32_t sides = is_strip ? 2 : 3;
+    for (uint32_t j = 0; j <= segments; j++) {
+        double forth, lift, theta;
+        bent_at(bent, (double)j / segments, &forth, &lift, &theta);
+        for (uint32_t i = 0; i < sides; i++) {
+            double angle = is_strip ? G_PI * i : G_PI * (0.5 + 2.0 * i / 3.0);
+            float x = (float)cos(angle), up = is_strip ? 0.0F : (float)sin(angle);
+            vec3s aside = {{x, up * (float)cos(theta), -up * (float)sin(theta)}};
+            vec3s at = {
+                {0, blade->petiole_length * (float)lift, blade->petiole_length * (float)forth}};
+            vec3s normal = is_strip ? (vec3s){{0, (float)cos(theta), -(float)sin(theta)}} : aside;
+            fr_shape_vertex(mesh, glms_vec3_muladds(aside, blade->petiole_radius, at), normal,
+                            0.5F - 0.005F * x, 0.94F - 0.04F * (float)j / (float)segments);
+        }
+        for (uint32_t i = 0; j > 0 && i < (is_strip ? 1 : sides); i++) {
+            uint32_t base = (j - 1) * sides, a = base + i, b = base + (i + 1) % sides;
+            fr_shape_triangle(mesh, a, b, b + sides);
+            fr_shape_triangle(mesh, a, b + sides, a + sides);
+        }
+    }
+}
+
+void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
+                    const FrDetail *detail) {
+    mesh->is_foliage = true;
+    FrBladeForm form = {.blade = blade, .width = blade->width, .half = 0.5 * blade->width};
+    double start = 0.0;
+    if (blade->petiole_length > 0.0F) {
+        FrBent bent;
+        double forth, lift;
+        bend(&bent, plant, 0.0, blade->petiole_bend, FR_NONE);
+        bent_at(&bent, 1.0, &forth, &lift, &start);
+        form.base.y = blade->petiole_length * (float)lift;
+        form.base.z = blade->petiole_length * (float)forth;
+        if (blade->petiole_radius > 0.0F && detail->lod < 2) {
+            lay_petiole(mesh, blade, &bent, detail);
+        }
+    }
+    if (blade->length > 0.0F && blade->width > 0.0F) {
+        bend(&form.along, plant, start, blade->curvature_along, blade->along_curve);
+        bend(&form.across, plant, blade->fold, blade->curvature_across, blade->across_curve);
+        lay_blade(mesh, plant, &form, detail);
+    }
+}

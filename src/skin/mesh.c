@@ -1,0 +1,57 @@
+// Meshes: memory and digest.
+#include "skin/mesh.h"
+
+#include <stdlib.h>
+#include <sys/mman.h>
+
+// Arrays are written once from end to end; huge pages spare most of the page faults of that.
+static void *allocate(uint64_t bytes) {
+    const size_t huge = 2 << 20;
+    if (bytes < huge) {
+        return malloc(bytes > 0 ? bytes : 1);
+    }
+    void *memory = NULL;
+    if (posix_memalign(&memory, huge, bytes) != 0) {
+        return NULL;
+    }
+    madvise(memory, bytes, MADV_HUGEPAGE);
+    return memory;
+}
+
+FrMesh *fr_mesh_new(uint64_t vertices, uint64_t indices, uint32_t parts) {
+    FrMesh *mesh = g_new0(FrMesh, 1);
+    mesh->vertex_count = vertices;
+    mesh->index_count = indices;
+    mesh->part_count = parts;
+    mesh->parts = g_new0(FrMeshPart, parts);
+    mesh->vertices = allocate(vertices * sizeof(FrVertex));
+    mesh->indices = allocate(indices * sizeof(uint32_t));
+    if (mesh->vertices == NULL || mesh->indices == NULL) {
+        fr_mesh_free(mesh);
+        return NULL;
+    }
+    return mesh;
+}
+
+void fr_mesh_free(FrMesh *mesh) {
+    if (mesh != NULL) {
+        free(mesh->vertices);
+        free(mesh->indices);
+        g_free(mesh->parts);
+        g_free(mesh);
+    }
+}
+
+FrDigest fr_mesh_digest(const FrMesh *mesh) {
+    FrDigest digest = fr_digest(0, mesh->vertices, mesh->vertex_count * sizeof(FrVertex));
+    digest = fr_digest(digest, mesh->indices, mesh->index_count * sizeof(uint32_t));
+    for (uint32_t i = 0; i < mesh->part_count; i++) {
+        const FrMeshPart *part = &mesh->parts[i];
+        const uint64_t numbers[] = {part->material,     part->is_foliage,  part->first_vertex,
+                                    part->vertex_count, part->first_index, part->index_count};
+        digest = fr_digest(digest, numbers, sizeof numbers);
+        digest = fr_digest(digest, part->min, sizeof part->min);
+        digest = fr_digest(digest, part->max, sizeof part->max);
+    }
+    return digest;
+}

@@ -1,0 +1,7 @@
+// Memory of meshes.
+#pragma once
+
+#include "frond/skin.h"
+
+/// A mesh with that much room and no contents. NULL if the machine has no memory for it.
+FrMesh *fr_mesh_new(uint64_t vertices, uint64_t indices, uint32_t parts);

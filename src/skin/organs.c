@@ -1,0 +1,151 @@
+// Places, counts and copies organs.
+#include "skin/organs.h"
+
+#include <cglm/struct.h>
+
+#include <math.h>
+#include <string.h>
+
+// The purpose of the draw that decides whether a leaf stays.
+enum { PURPOSE_STAY = 0x6c6f64 };
+
+static bool is_drawn(const FrPlan *plan, uint32_t organ) {
+    const FrOrgans *organs = &plan->plant->organs;
+    uint32_t node = organs->node[organ];
+    return (organs->flags[organ] & (FR_SHED | FR_HIDDEN)) == 0 && organs->scale[organ] > 0.0F &&
+           isfinite(organs->scale[organ]) &&
+           (node == FR_NONE || (plan->marks[node] & FR_NODE_GONE) == 0);
+}
+
+static bool stays(const FrOrganPlan *organs, uint32_t organ, const FrShapeMesh *shape) {
+    if (!shape->is_foliage || organs->staying >= 1.0) {
+        return true;
+    }
+    FrKey path = organs->plan->plant->organs.path[organ];
+    FrKey key = path != 0 ? path : fr_key_root(organ);
+    return fr_random(key, PURPOSE_STAY, 0) < organs->staying;
+}
+
+static void make_shapes(FrOrganPlan *organs) {
+    const FrPlan *plan = organs->plan;
+    const FrPlant *plant = plan->plant;
+    bool *is_used = g_new0(bool, plant->shapes->len + 1);
+    for (uint32_t i = 0; i < plant->organs.count; i++) {
+        if (plant->organs.shape[i] < plant->shapes->len) {
+            is_used[plant->organs.shape[i]] = true;
+        }
+    }
+    for (uint32_t i = 0; i < plant->shapes->len; i++) {
+        if (is_used[i]) {
+            fr_shape_mesh_init(&organs->shapes[i], plant, i, &plan->detail);
+        }
+    }
+    g_free(is_used);
+}
+
+void fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
+    const FrPlant *plant = plan->plant;
+    uint32_t count = plan->detail.foliage ? plant->organs.count : 0;
+    *organs = (FrOrganPlan){
+        .plan = plan,
+        .shapes = g_new0(FrShapeMesh, plant->shapes->len + 1),
+        .vertex = g_new(uint64_t, count),
+        .index = g_new(uint64_t, count),
+        .slot_vertices = g_new0(uint64_t, plan->slots),
+        .slot_indices = g_new0(uint64_t, plan->slots),
+        .slot_foliage = g_new0(bool, plan->slots),
+        .staying = plan->detail.lod < 2 ? 1.0 : ldexp(1.0, 1 - plan->detail.lod),
+    };
+    organs->enlarged = (float)fmin(1.0 / sqrt(organs->staying), 2.0);
+    if (count > 0) {
+        make_shapes(organs);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        organs->index[i] = UINT64_MAX;
+        uint32_t form = plant->organs.shape[i], slot = fr_slot(plant->organs.material[i]);
+        if (form >= plant->shapes->len || !is_drawn(plan, i)) {
+            continue;
+        }
+        const FrShapeMesh *shape = &organs->shapes[form];
+        if (shape->index_count == 0 || !stays(organs, i, shape)) {
+            continue;
+        }
+        organs->vertex[i] = organs->slot_vertices[slot];
+        organs->index[i] = organs->slot_indices[slot];
+        organs->slot_vertices[slot] += shape->vertex_count;
+        organs->slot_indices[slot] += shape->index_count;
+        organs->slot_foliage[slot] |= shape->is_foliage;
+    }
+}
+
+void fr_organs_clear(FrOrganPlan *organs) {
+    for (uint32_t i = 0; i < organs->plan->plant->shapes->len; i++) {
+        fr_shape_mesh_clear(&organs->shapes[i]);
+    }
+    g_free(organs->shapes);
+    g_free(organs->vertex);
+    g_free(organs->index);
+    g_free(organs->slot_vertices);
+    g_free(organs->slot_indices);
+    g_free(organs->slot_foliage);
+}
+
+// Columns of the rotation, and the place.
+typedef struct FrPose {
+    vec3s x, y, z, at;
+} FrPose;
+
+static FrPose pose_of(const FrPlant *plant, uint32_t organ, FrUpAxis up) {
+    vec3s at;
+    versors q;
+    fr_plant_organ_pose(plant, organ, &at, &q);
+    float xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z;
+    float yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+    FrPose pose = {
+        .x = {{1.0F - 2.0F * (yy + zz), 2.0F * (xy + wz), 2.0F * (xz - wy)}},
+        .y = {{2.0F * (xy - wz), 1.0F - 2.0F * (xx + zz), 2.0F * (yz + wx)}},
+        .z = {{2.0F * (xz + wy), 2.0F * (yz - wx), 1.0F - 2.0F * (xx + yy)}},
+        .at = at,
+    };
+    pose.x = fr_upright(pose.x, up);
+    pose.y = fr_upright(pose.y, up);
+    pose.z = fr_upright(pose.z, up);
+    pose.at = fr_upright(pose.at, up);
+    return pose;
+}
+
+static void copy_shape(const FrShapeMesh *shape, const FrPose *pose, float scale, uint32_t base,
+                       FrVertex *out, uint32_t *index) {
+    for (uint32_t i = 0; i < shape->vertex_count; i++) {
+        const FrVertex *in = &shape->vertices[i];
+        const float *p = in->position, *n = in->normal;
+        for (int k = 0; k < 3; k++) {
+            float x = pose->x.raw[k], y = pose->y.raw[k], z = pose->z.raw[k];
+            out[i].position[k] = pose->at.raw[k] + scale * (p[0] * x + p[1] * y + p[2] * z);
+            out[i].normal[k] = n[0] * x + n[1] * y + n[2] * z;
+        }
+        memcpy(out[i].uv, in->uv, sizeof in->uv);
+    }
+    for (uint32_t i = 0; i < shape->index_count; i++) {
+        index[i] = base + shape->indices[i];
+    }
+}
+
+void fr_write_organs(const FrOrganPlan *organs, size_t begin, size_t end, FrUpAxis up, FrMesh *mesh,
+                     const uint32_t *part_of, FrBox *boxes) {
+    const FrPlant *plant = organs->plan->plant;
+    for (size_t i = begin; i < end; i++) {
+        if (organs->index[i] == UINT64_MAX) {
+            continue;
+        }
+        uint32_t organ = (uint32_t)i, slot = fr_slot(plant->organs.material[i]);
+        const FrShapeMesh *shape = &organs->shapes[plant->organs.shape[i]];
+        const FrMeshPart *part = &mesh->parts[part_of[slot]];
+        FrVertex *out = mesh->vertices + part->first_vertex + organs->vertex[i];
+        uint32_t *index = mesh->indices + part->first_index + organs->index[i];
+        float scale = plant->organs.scale[i] * (shape->is_foliage ? organs->enlarged : 1.0F);
+        FrPose pose = pose_of(plant, organ, up);
+        copy_shape(shape, &pose, scale, (uint32_t)organs->vertex[i], out, index);
+        fr_box_widen(&boxes[slot], out, shape->vertex_count);
+    }
+}

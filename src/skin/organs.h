@@ -1,0 +1,27 @@
+// Organs: copies of shape meshes, gathered by material.
+//
+// From the second level of detail on, ever fewer leaves are drawn: a leaf stays while the random
+// number of its path is below the part that stays (so the leaves of a level are among those of the
+// one before), and those that stay are enlarged to keep the whole area, at most twice
+// (Cook, Halstead, Planck, Ryu. Stochastic Simplification of Aggregate Detail. SIGGRAPH 2007).
+#pragma once
+
+#include "skin/shape.h"
+#include "skin/tube.h"
+
+typedef struct FrOrganPlan {
+    const FrPlan *plan;
+    FrShapeMesh *shapes;                    ///< by shape; empty where no organ has it
+    uint64_t *vertex;                       ///< by organ: its first vertex in its part
+    uint64_t *index;                        ///< by organ: its first index in its part
+    uint64_t *slot_vertices, *slot_indices; ///< by slot
+    bool *slot_foliage;                     ///< by slot
+    float enlarged;
+    double staying; ///< part of the leaves
+} FrOrganPlan;
+
+void fr_organs_init(FrOrganPlan *organs, const FrPlan *plan);
+void fr_organs_clear(FrOrganPlan *organs);
+/// Writes organs [begin, end).
+void fr_write_organs(const FrOrganPlan *organs, size_t begin, size_t end, FrUpAxis up, FrMesh *mesh,
+                     const uint32_t *part_of, FrBox *boxes);

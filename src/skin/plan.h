@@ -1,0 +1,113 @@
+// What will be written, and where: the plan of a skin.
+//
+//     run   a chain of axes that continue one another, skinned without a seam
+//     tube  a visible stretch of a run with one material: what is written as one piece
+//     ring  a cross-section of a tube; most stand at nodes that are marked in `keep`
+#pragma once
+
+#include "frond/skin.h"
+
+#include "skin/section.h"
+
+/// Settings as the algorithms want them, with the level of detail already applied.
+typedef struct FrDetail {
+    int lod;
+    float bend_chord;  ///< distance of two unit directions as far apart as a band may turn
+    float sag_share;   ///< how far a band may cut a corner, in radii …
+    float sag_length;  ///< … plus metres
+    float taper_share; ///< how far a band may miss a node's radius, in radii
+    float side_length; ///< m
+    uint32_t min_sides, max_sides;
+    float collar;
+    bool caps, foliage;
+} FrDetail;
+
+FrDetail fr_detail(const FrSkinParams *params);
+
+typedef enum FrTubeStart {
+    FR_START_FREE,   ///< stands on the ground or on nothing: closed by a cap
+    FR_START_BRANCH, ///< grows out of a parent: see collar.h
+    FR_START_JOINT,  ///< goes on from the tube before it in the run
+} FrTubeStart;
+
+typedef enum FrTubeEnd {
+    FR_END_POINT,
+    FR_END_FLAT, ///< closed by a cap
+    FR_END_OPEN, ///< the next tube of the run goes on
+} FrTubeEnd;
+
+typedef struct FrTube {
+    uint32_t axis;        ///< the first one of it
+    uint32_t from;        ///< node at whose tip it begins; FR_NONE: the axis' origin
+    uint32_t first, last; ///< nodes
+    uint32_t slot;        ///< of its material, see FrPlan.slots
+    uint32_t section;     ///< index into FrPlan.sections
+    uint32_t rings;       ///< 0: nothing to draw
+    uint8_t collar_rings; ///< FR_START_BRANCH: rings that lie on the parent or lead from it …
+    bool has_join;        ///< … followed by a full ring where the branch is clear of its parent
+    uint8_t start, end;
+    bool is_point_sets;
+    bool has_shoulder;                  ///< FR_END_POINT: blunt, so a ring shortly before the tip
+    uint64_t first_vertex, first_index; ///< in the part
+    uint64_t vertices, indices;
+} FrTube;
+
+typedef struct FrRun {
+    uint32_t first_tube, tube_count;
+    float radius;        ///< m, greatest
+    bool follows_frames; ///< not round: turned as its nodes' frames say
+} FrRun;
+
+/// A node's marks.
+enum {
+    FR_NODE_GONE = 1 << 0,  ///< shed, or borne by something shed
+    FR_NODE_BLUNT = 1 << 1, ///< last of its axis, but bears a branch: no point
+};
+
+typedef struct FrPlan {
+    const FrPlant *plant;
+    const FrContext *context;
+    FrDetail detail;
+    uint32_t *successor; ///< by axis: the one that continues it, FR_NONE
+    uint32_t *before;    ///< by axis: the one it continues, FR_NONE
+    uint8_t *marks;      ///< by node: FR_NODE_GONE, FR_NODE_BLUNT
+    uint8_t *keep;       ///< by node: 1 where a ring stands or a tube ends
+    uint32_t *section;   ///< by axis: index into sections
+    GArray *runs;        ///< FrRun
+    GArray *tubes;       ///< FrTube, run by run
+    FrSection *sections; ///< [0, max_sides]: round ones by number of sides; then by profile
+    uint32_t section_count;
+    float (*tiles)[2]; ///< by slot: width and height of a bark tile, m
+    uint32_t slots;    ///< materials + 1; slot 0 is the plain default
+} FrPlan;
+
+/// Finds runs and tubes. FR_CANCELLED leaves a plan that can be freed.
+void fr_plan_init(FrPlan *plan, const FrPlant *plant, const FrSkinParams *params,
+                  const FrContext *context);
+void fr_plan_clear(FrPlan *plan);
+/// Chooses rings and sides and counts the triangles of runs [begin, end). Different runs may be
+/// measured in different threads.
+void fr_measure_runs(FrPlan *plan, size_t begin, size_t end);
+
+static inline uint32_t fr_slot(uint32_t material) {
+    return material == FR_NONE ? 0 : material + 1;
+}
+
+/// The node after `node` on its axis or on the axis that continues it; FR_NONE at the end.
+static inline uint32_t fr_plan_next(const FrPlan *plan, uint32_t node) {
+    const FrNodes *nodes = &plan->plant->nodes;
+    uint32_t next = nodes->next[node];
+    if (next != FR_NONE) {
+        return next;
+    }
+    uint32_t axis = plan->successor[nodes->axis[node]];
+    return axis == FR_NONE ? FR_NONE : plan->plant->axes.first[axis];
+}
+
+/// Where a tube begins and how thick it is there.
+vec3s fr_tube_origin(const FrPlan *plan, const FrTube *tube);
+float fr_tube_base_radius(const FrPlan *plan, const FrTube *tube);
+/// The section of a profile, or NULL if it is round.
+const FrSection *fr_plan_profile(const FrPlan *plan, uint32_t profile);
+/// Length below which two points of a tube count as one: far enough apart in single precision.
+float fr_smallest_length(vec3s at, float radius);

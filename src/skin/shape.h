@@ -1,0 +1,30 @@
+// Shapes of organs as small meshes, made once and copied wherever an organ is.
+#pragma once
+
+#include "frond/skin.h"
+
+#include "skin/plan.h"
+
+typedef struct FrShapeMesh {
+    FrVertex *vertices; ///< owned
+    uint32_t *indices;  ///< owned
+    uint32_t vertex_count, index_count;
+    uint32_t vertex_room, index_room; ///< while it is made
+    bool is_foliage;                  ///< open: seen from both sides
+} FrShapeMesh;
+
+void fr_shape_mesh_init(FrShapeMesh *mesh, const FrPlant *plant, uint32_t shape,
+                        const FrDetail *detail);
+void fr_shape_mesh_clear(FrShapeMesh *mesh);
+
+/// Appends a vertex and answers its index.
+uint32_t fr_shape_vertex(FrShapeMesh *mesh, vec3s position, vec3s normal, float u, float v);
+/// Appends a triangle unless two of its corners are the same.
+void fr_shape_triangle(FrShapeMesh *mesh, uint32_t a, uint32_t b, uint32_t c);
+
+/// A whole number of segments reduced for the level of detail.
+uint32_t fr_shape_segments(uint32_t wanted, uint32_t least, uint32_t most, const FrDetail *detail);
+
+void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
+                    const FrDetail *detail);
+void fr_shape_primitive(FrShapeMesh *mesh, const FrShape *shape, const FrDetail *detail);
