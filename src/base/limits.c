@@ -80,9 +80,9 @@ FrStatus fr_limit_check(uint64_t wanted, uint64_t limit, const char *limit_name,
         g_snprintf(amount, sizeof amount, "%" G_GUINT64_FORMAT, wanted);
     }
     fr_diags_add(diags, FR_ERROR, row != NULL ? row->code : "limit", span,
-                 "%s would make %s %s; the limit '%s' is %" G_GUINT64_FORMAT,
-                 culprit != NULL && *culprit != 0 ? culprit : "this", amount,
-                 row != NULL ? row->meaning : "in all", limit_name, limit);
+                 "%s asks for %s; the limit '%s' (%s) is %" G_GUINT64_FORMAT,
+                 culprit != NULL && *culprit != 0 ? culprit : "this", amount, limit_name,
+                 row != NULL ? row->meaning : "in all", limit);
     return FR_ERR_LIMIT;
 }
 

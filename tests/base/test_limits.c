@@ -48,7 +48,7 @@ static void test_check(void) {
     const FrDiag *diag = fr_diags_get(diags, 0);
     g_assert_cmpstr(diag->code, ==, "limit-nodes");
     g_assert_cmpstr(diag->text, ==,
-                    "trunk would make 11 internodes of one plant; the limit 'nodes' is 10");
+                    "trunk asks for 11; the limit 'nodes' (internodes of one plant) is 10");
     g_assert_cmpint(fr_limit_check(UINT64_MAX, 10, "nodes", NULL, (FrSpan){0}, diags), ==,
                     FR_ERR_LIMIT);
     g_assert_nonnull(strstr(fr_diags_get(diags, 1)->text, "over 10^19"));
