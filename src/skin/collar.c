@@ -163,6 +163,39 @@ static bool parent_reaches(const FrPlan *plan, uint32_t node, float forth, float
     return forth <= 0.0F && back <= 0.0F;
 }
 
+static bool is_point(const FrPlan *plan, uint32_t node) {
+    const FrPlant *plant = plan->plant;
+    return fr_plan_next(plan, node) == FR_NONE && (plan->marks[node] & FR_NODE_BLUNT) == 0 &&
+           (plant->axes.flags[plant->nodes.axis[node]] & (FR_CUT | FR_POINT_SETS)) == 0;
+}
+
+// A branch at its parent's end goes on from a ring within that end, as the arm of a fork does.
+static void nest(const FrPlan *plan, uint32_t node, const FrInternode *internode, float length,
+                 bool is_fine, FrCollar *collar) {
+    float radius = fminf(0.985F * collar->parent_radius, 1.5F * collar->radius);
+    vec3s centre =
+        glms_vec3_muladds(internode->along, -fmaxf(internode->beyond, 0.0F), internode->axis_point);
+    vec3s facing = internode->along;
+    float depth = is_point(plan, node) ? 2.2F * radius : 0.2F * radius;
+    if (glms_vec3_dot(collar->direction, facing) < 0.3F) {
+        // It turns back too far for that: a ring across itself, drawn into the parent.
+        radius = fminf(collar->radius, 0.9F * collar->parent_radius);
+        centre = collar->origin;
+        facing = collar->direction;
+        depth = 0.3F * radius;
+    }
+    float join = fminf(0.7F * (radius + collar->radius), 0.4F * length);
+    collar->is_nested = true;
+    collar->exit = glms_vec3_muladds(facing, -depth, centre);
+    collar->along = facing;
+    collar->parent_radius = radius;
+    collar->exit_distance = 0.0F;
+    collar->rings = 1;
+    collar->has_join = is_fine && join > 0.5F * collar->radius;
+    collar->join = join;
+    collar->clear = collar->has_join ? join + 0.3F * collar->radius : 0.5F * join;
+}
+
 FrCollar fr_collar_find(const FrPlan *plan, const FrTube *tube, uint32_t sides) {
     const FrPlant *plant = plan->plant;
     uint32_t node = plant->axes.bearer[tube->axis];
@@ -193,12 +226,13 @@ FrCollar fr_collar_find(const FrPlan *plan, const FrTube *tube, uint32_t sides) 
     float shift = glms_vec3_dot(glms_vec3_sub(collar.exit, internode.axis_point), internode.along);
     float half = radius * (1.0F + FR_COLLAR_FLARE * plan->detail.collar) / up;
     float forth = internode.beyond + shift + half, back = -(internode.beyond + shift - half);
-    collar.is_nested = !parent_reaches(plan, node, forth, back) || last_exit > 0.6F * length ||
-                       !(collar.parent_radius > 0.0F);
-    if (collar.is_nested) {
+    bool is_fine = sides > 5 && plan->detail.lod < 2;
+    if (!parent_reaches(plan, node, forth, back) || last_exit > 0.6F * length ||
+        !(collar.parent_radius > 0.0F)) {
+        nest(plan, node, &internode, length, is_fine, &collar);
         return collar;
     }
-    collar.has_join = sides > 5 && plan->detail.lod < 2 && last_exit + blend < 0.6F * length;
+    collar.has_join = is_fine && last_exit + blend < 0.6F * length;
     collar.rings = collar.has_join && sides > 7 && plan->detail.lod == 0 ? 3 : 1;
     collar.join = last_exit + blend;
     collar.clear = collar.has_join ? collar.join + 0.5F * radius
@@ -207,12 +241,6 @@ FrCollar fr_collar_find(const FrPlan *plan, const FrTube *tube, uint32_t sides) 
 }
 
 // ---- the parent as it is skinned ---------------------------------------------------------------
-
-static bool is_point(const FrPlan *plan, uint32_t node) {
-    const FrPlant *plant = plan->plant;
-    return fr_plan_next(plan, node) == FR_NONE && (plan->marks[node] & FR_NODE_BLUNT) == 0 &&
-           (plant->axes.flags[plant->nodes.axis[node]] & (FR_CUT | FR_POINT_SETS)) == 0;
-}
 
 static struct FrLimbRing ring_of(const FrPlan *plan, uint32_t node) {
     const FrNodes *nodes = &plan->plant->nodes;

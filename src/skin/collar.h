@@ -18,9 +18,11 @@ typedef struct FrCollar {
     float exit_distance; ///< m, from origin to exit
     float join;          ///< m along the branch: clear of the parent all around
     float clear;         ///< m along the branch: no ring at a node before
-    bool is_nested;      ///< too near the parent's end: begins inside it with a plain ring
-    bool has_join;       ///< a ring stands at `join`
-    uint8_t rings;       ///< on and above the parent's surface, before `join`
+    /// Too near the parent's end for a collar: it begins with a plain ring around `exit` of
+    /// `parent_radius`, across `along`.
+    bool is_nested;
+    bool has_join; ///< a ring stands at `join`
+    uint8_t rings; ///< on and above the parent's surface, before `join`
 } FrCollar;
 
 FrCollar fr_collar_find(const FrPlan *plan, const FrTube *tube, uint32_t sides);

@@ -196,13 +196,17 @@ static void write_apex(FrSweep *sweep, const FrStation *tip, float slope) {
 // ---- directions --------------------------------------------------------------------------------
 
 // Turns `v`, which is across unit `from`, by the smallest rotation from `from` to `to`.
-static vec3s carried(vec3s v, vec3s from, vec3s to) {
+static vec3s carried_any(vec3s v, vec3s from, vec3s to) {
     float scale = 1.0F + glms_vec3_dot(from, to);
     if (scale < 1e-4F) {
         return v; // opposite: across the one is across the other
     }
-    float part = glms_vec3_dot(v, to) / scale;
-    v = glms_vec3_muladds(glms_vec3_add(from, to), -part, v);
+    return glms_vec3_muladds(glms_vec3_add(from, to), -glms_vec3_dot(v, to) / scale, v);
+}
+
+// The same for a unit vector, without drifting from length 1.
+static vec3s carried(vec3s v, vec3s from, vec3s to) {
+    v = carried_any(v, from, to);
     float length = glms_vec3_norm(v);
     return length > 0.5F ? glms_vec3_scale(v, 1.0F / length) : v;
 }
@@ -331,27 +335,51 @@ static float v_at(const FrSweep *sweep, float distance) {
 
 // ---- starts ------------------------------------------------------------------------------------
 
+// A column of a collar: where it meets the parent, and where it bends into the branch.
+typedef struct FrCollarColumn {
+    vec3s foot, foot_normal;
+    vec3s knee;
+} FrCollarColumn;
+
+static FrCollarColumn collar_column(const FrSweep *sweep, const FrCollar *collar,
+                                    const FrLimb *limb, vec3s spoke) {
+    const FrPlan *plan = sweep->plan;
+    if (collar->is_nested) {
+        spoke = carried_any(spoke, collar->direction, collar->along);
+        float length = glms_vec3_norm(spoke);
+        vec3s normal = glms_vec3_scale(spoke, length > 0.0F ? 1.0F / length : 0.0F);
+        float scale = collar->parent_radius / fmaxf(collar->radius, 1e-12F);
+        vec3s foot = glms_vec3_muladds(spoke, scale, collar->exit);
+        return (FrCollarColumn){foot, normal, foot};
+    }
+    float flare = 1.0F + FR_COLLAR_FLARE * plan->detail.collar;
+    FrFoot foot = fr_collar_foot(plan, collar, limb, glms_vec3_scale(spoke, flare));
+    FrFoot plain = fr_collar_foot(plan, collar, limb, spoke);
+    vec3s knee = glms_vec3_add(collar->origin, spoke);
+    float up = fminf(plain.distance, 0.95F * collar->join);
+    knee = glms_vec3_muladds(collar->direction, up, knee);
+    return (FrCollarColumn){foot.position, foot.normal, knee};
+}
+
 // The rings of a collar lead from the parent's surface along a quadratic Bézier curve per column,
 // tangent to the surface below and to the branch above.
 static void write_collar(FrSweep *sweep, const FrCollar *collar, const FrRing *join) {
     const FrPlan *plan = sweep->plan;
     FrLimb limb;
-    fr_limb_find(plan, sweep->tube, collar, &limb);
+    if (!collar->is_nested) {
+        fr_limb_find(plan, sweep->tube, collar, &limb);
+    }
     vec3s y = glms_vec3_cross(collar->direction, sweep->side);
+    float radius = fmaxf(collar->radius, fr_smallest_length(collar->exit, sweep->run->radius));
     float flat = plan->plant->nodes.flatness[sweep->tube->first];
-    float flare = 1.0F + FR_COLLAR_FLARE * plan->detail.collar;
     float per_metre = sweep->bark.rate / fmaxf(collar->radius, sweep->bark.thinnest);
     uint32_t columns = sweep->section->count;
     for (uint32_t i = 0; i < columns; i++) {
         const FrColumn *column = &sweep->section->columns[i];
-        vec3s spoke = glms_vec3_scale(sweep->side, collar->radius * column->x);
-        spoke = glms_vec3_muladds(y, collar->radius * column->y * flat, spoke);
-        FrFoot foot = fr_collar_foot(plan, collar, &limb, glms_vec3_scale(spoke, flare));
-        FrFoot plain = fr_collar_foot(plan, collar, &limb, spoke);
-        vec3s knee = glms_vec3_add(collar->origin, spoke);
-        knee =
-            glms_vec3_muladds(collar->direction, fminf(plain.distance, 0.95F * collar->join), knee);
-        vec3s top = foot.position, top_normal = foot.normal;
+        vec3s spoke = glms_vec3_scale(sweep->side, radius * column->x);
+        spoke = glms_vec3_muladds(y, radius * column->y * flat, spoke);
+        FrCollarColumn path = collar_column(sweep, collar, &limb, spoke);
+        vec3s top = path.foot, top_normal = path.foot_normal;
         if (collar->has_join) {
             top = glms_vec3_muladds(join->across, column->x, join->at);
             top = glms_vec3_muladds(join->upwards, column->y, top);
@@ -359,10 +387,10 @@ static void write_collar(FrSweep *sweep, const FrCollar *collar, const FrRing *j
         }
         for (uint32_t k = 0; k < collar->rings; k++) {
             float w = (float)k / (float)collar->rings;
-            vec3s at = glms_vec3_scale(foot.position, (1.0F - w) * (1.0F - w));
-            at = glms_vec3_muladds(knee, 2.0F * w * (1.0F - w), at);
+            vec3s at = glms_vec3_scale(path.foot, (1.0F - w) * (1.0F - w));
+            at = glms_vec3_muladds(path.knee, 2.0F * w * (1.0F - w), at);
             at = glms_vec3_muladds(top, w * w, at);
-            vec3s normal = glms_vec3_scale(foot.normal, 1.0F - w);
+            vec3s normal = glms_vec3_scale(path.foot_normal, 1.0F - w);
             normal = glms_vec3_normalize(glms_vec3_muladds(top_normal, w, normal));
             FrVertex *out = &sweep->vertex[k * columns + i];
             put(out->position, at, sweep->up);
@@ -399,13 +427,6 @@ static bool start_branch(FrSweep *sweep, FrStation *station) {
         .node = sweep->tube->first,
         .v = sweep->bark.v,
     };
-    if (collar.is_nested) {
-        // Inside the parent's end: narrower than it and drawn back into it.
-        float radius = fminf(collar.radius, 0.9F * collar.parent_radius);
-        station->radius = radius;
-        station->at = glms_vec3_muladds(collar.direction, -0.3F * radius, collar.origin);
-        return true;
-    }
     if (!collar.has_join) {
         FrRing none = {.v = v_at(sweep, collar.exit_distance)};
         station->at = collar.exit;
