@@ -11,7 +11,7 @@ typedef struct Hostile {
 
 static const Hostile hostile[] = {
     {"instances", 3, "*instances.frond:*error:*[limit-instances]*"},
-    {"organs", 3, "*organs.frond:*error:*[[]limit-*"},
+    {"organs", 3, "*organs.frond:*error:*[limit-*"},
     {"cycle", 1, "*cycle.frond:*error:*"},
     {"deep-cycle", 3, "*deep-cycle.frond:*error:*[limit-*"},
     {"nested", 3, "*nested.frond:1:*error:*[limit-nesting]*"},
@@ -95,9 +95,7 @@ static void put_texts(void) {
     put("external", "<!DOCTYPE a SYSTEM 'file:///dev/zero'><frond version='1'/>", -1);
     put("truncated", "<frond version='1'><material id='m'", -1);
     put("empty", "", 0);
-    put("binary",
-        "\177ELF\2\1\1\0\0\0\0",
-        11);
+    put("binary", "\177ELF\2\1\1\0\0\0\0", 11);
 }
 
 static void test_documents(void) {
@@ -108,10 +106,11 @@ static void test_documents(void) {
     for (size_t i = 0; i < G_N_ELEMENTS(hostile); i++) {
         char *arguments = g_strdup_printf("check %s.frond --threads 2", hostile[i].name);
         Run did = run(arguments);
-        g_assert_cmpint(did.exit, ==, hostile[i].exit);
-        g_assert_true(g_pattern_match_simple(hostile[i].err, did.err));
-        if (!IS_SANITIZED) {
-            g_assert_cmpuint(did.peak_bytes, <, MOST_BYTES);
+        bool is_small = IS_SANITIZED || did.peak_bytes < MOST_BYTES;
+        if (did.exit != hostile[i].exit || !is_small ||
+            !g_pattern_match_simple(hostile[i].err, did.err)) {
+            g_test_fail_printf("%s: expected exit %d, errors '%s'", hostile[i].name,
+                               hostile[i].exit, hostile[i].err);
         }
         clear(&did);
         g_free(arguments);
