@@ -34,7 +34,7 @@ typedef struct FrMesh {
 
 typedef enum FrUpAxis { FR_UP_Z, FR_UP_Y } FrUpAxis;
 
-/// Settings of a skin. X rows as in param.h.
+/// Settings of a skin. X rows as in param.h; in the struct `bend` is in radians.
 #define FR_SKIN_PARAMS(X)                                                                          \
     X(INTEGER, lod, "0", 0, 8, "", "", "level of detail: 0 is finest, each level has some 40 %")   \
     X(REAL, bend, "10", 0.5, 90, "deg", "", "a ring for every so many degrees a branch turns")     \

@@ -184,6 +184,7 @@ static void nest(const FrPlan *plan, uint32_t node, const FrInternode *internode
         facing = collar->direction;
         depth = 0.3F * radius;
     }
+    radius = fmaxf(radius, fr_smallest_length(centre, collar->radius));
     float join = fminf(0.7F * (radius + collar->radius), 0.4F * length);
     collar->is_nested = true;
     collar->exit = glms_vec3_muladds(facing, -depth, centre);
@@ -224,11 +225,12 @@ FrCollar fr_collar_find(const FrPlan *plan, const FrTube *tube, uint32_t sides) 
     float length = length_up_to(plan, tube, 2.0F * (last_exit + blend + radius));
 
     float shift = glms_vec3_dot(glms_vec3_sub(collar.exit, internode.axis_point), internode.along);
-    float half = radius * (1.0F + FR_COLLAR_FLARE * plan->detail.collar) / up;
+    float half = radius * (1.0F + FR_COLLAR_FLARE * plan->detail.collar) / up +
+                 collar.parent_radius * fabsf(glms_vec3_dot(collar.direction, collar.along)) / up;
     float forth = internode.beyond + shift + half, back = -(internode.beyond + shift - half);
     bool is_fine = sides > 5 && plan->detail.lod < 2;
     if (!parent_reaches(plan, node, forth, back) || last_exit > 0.6F * length ||
-        !(collar.parent_radius > 0.0F)) {
+        !(collar.parent_radius > fr_smallest_length(collar.origin, radius))) {
         nest(plan, node, &internode, length, is_fine, &collar);
         return collar;
     }
@@ -373,6 +375,7 @@ FrFoot fr_collar_foot(const FrPlan *plan, const FrCollar *collar, const FrLimb *
     normal = glms_vec3_muladds(around, sinf(angle), normal);
     float reach =
         ring.radius * limb->sink * reach_towards(plan->plant, limb->section, limb->node, normal);
+    reach = fmaxf(reach, fr_smallest_length(ring.at, collar->radius));
     return (FrFoot){
         .position = glms_vec3_muladds(normal, reach, ring.at),
         .normal = normal,

@@ -20,7 +20,7 @@ FrDetail fr_detail(const FrSkinParams *params) {
     for (int i = 0; i < lod; i++) {
         coarser *= 1.0 / sqrt(0.4);
     }
-    double bend = clamped(clamped(params->bend, 0.5, 90.0) * coarser, 0.5, 120.0) * G_PI / 180.0;
+    double bend = fmin(clamped(params->bend, 0.008, 1.58) * coarser, 2.0);
     uint32_t max_sides = whole((double)params->max_sides, 3, 128);
     uint32_t min_sides = whole((double)params->min_sides, 3, max_sides);
     double side_length = clamped(params->side_length, 0.0001, 10.0);

@@ -180,8 +180,10 @@ static void write_apex(FrSweep *sweep, const FrStation *tip, float slope) {
     for (uint32_t i = 0; i < sides; i++, column++) {
         FrVertex *out = &sweep->vertex[i];
         put(out->position, tip->at, sweep->up);
-        vec3s normal = profile_normal(&ring, column[0].normal_x + column[1].normal_x,
-                                      column[0].normal_y + column[1].normal_y);
+        float x = column[0].normal_x + column[1].normal_x;
+        float y = column[0].normal_y + column[1].normal_y;
+        float length = fmaxf(sqrtf(x * x + y * y), 1e-6F);
+        vec3s normal = profile_normal(&ring, x / length, y / length);
         put(out->normal, normal, sweep->up);
         out->uv[0] = sweep->bark.u + sweep->bark.around * 0.5F * (column[0].u + column[1].u);
         out->uv[1] = tip->v;
