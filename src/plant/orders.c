@@ -12,21 +12,30 @@ static void clear(uint32_t *order, uint32_t count) {
     }
 }
 
+/// A node's entry after one more child of order `own`: the largest order among the children seen,
+/// marked if two of them have it.
+static uint32_t with_child(uint32_t entry, uint32_t own) {
+    uint32_t largest = entry & ~FR_MARK;
+    uint32_t marked = own == largest ? entry | FR_MARK : entry;
+    return own > largest ? own : marked;
+}
+
 void fr_plant_strahler(const FrPlant *plant, uint32_t *order) {
     const uint32_t *parent = plant->nodes.parent;
     clear(order, plant->nodes.count);
-    // An entry holds the largest order among the children seen, marked if two of them have it.
+    // The node before is mostly the parent; its entry is then handed on without going through
+    // memory, on which the processor would wait.
+    uint32_t handed_on = 0;
     for (uint32_t i = plant->nodes.count; i-- > 0;) {
-        uint32_t own = (order[i] & ~FR_MARK) + (order[i] >> 31);
+        uint32_t entry = with_child(order[i], handed_on);
+        uint32_t own = (entry & ~FR_MARK) + (entry >> 31);
         own = own > 0 ? own : 1;
         order[i] = own;
-        if (parent[i] != FR_NONE) {
-            uint32_t largest = order[parent[i]] & ~FR_MARK;
-            if (own > largest) {
-                order[parent[i]] = own;
-            } else if (own == largest) {
-                order[parent[i]] |= FR_MARK;
-            }
+        handed_on = 0;
+        if (parent[i] == i - 1 && i > 0) {
+            handed_on = own;
+        } else if (parent[i] != FR_NONE) {
+            order[parent[i]] = with_child(order[parent[i]], own);
         }
     }
 }

@@ -60,7 +60,7 @@ static void random_plant_against_cglm(void) {
             a == 0 ? FR_NONE : (uint32_t)g_rand_int_range(rand, 0, (gint32)plant->nodes.count);
         vec3s offset = {{(float)g_rand_double(rand), (float)g_rand_double(rand), 0.5f}};
         uint32_t axis = fr_plant_add_axis(plant, bearer, offset, 0.1f);
-        for (int i = 0; i < 5; i++) {
+        for (uint32_t i = 0; i < 1 + a * a % 23; i++) {
             versors rotation = turn((float)g_rand_double_range(rand, -90, 90),
                                     (float)g_rand_double(rand), (float)g_rand_double(rand), 1);
             fr_plant_add_node(plant, axis, rotation, (float)g_rand_double(rand), 0.1f);
