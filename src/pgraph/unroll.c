@@ -3,7 +3,7 @@
 #include <string.h>
 
 // More stages than this belong to no plant; they would only fill memory.
-enum { MOST_STAGES = 1 << 18, MOST_STAGE_LINKS = 1 << 22, MOST_COUNTS = 1 << 23 };
+enum { MOST_STAGES = 1 << 17, MOST_STAGE_LINKS = 1 << 20, MOST_COUNTS = 1 << 22 };
 
 // Component and counts of a stage: what tells stages apart.
 typedef struct Key {

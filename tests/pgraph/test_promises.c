@@ -3,6 +3,7 @@
 #include "graphs.h"
 
 #include <math.h>
+#include <time.h>
 
 static const char tree_text[] =
     "camera C\n"
@@ -107,7 +108,7 @@ static void other_seed(void) {
 }
 
 static void assert_refused(const char *text, const char *code, FrStatus status) {
-    gint64 begin = g_get_monotonic_time();
+    clock_t begin = clock(); // processor time: the machine may be busy
     Built built = build_graph(graph_read(text), NULL);
     g_assert_cmpint(built.status, ==, status);
     g_assert_null(built.plant);
@@ -116,7 +117,7 @@ static void assert_refused(const char *text, const char *code, FrStatus status) 
         fr_diags_print(built.diags, errors);
         g_error("not %s but %s", code, errors->str);
     }
-    g_assert_cmpint(g_get_monotonic_time() - begin, <, G_USEC_PER_SEC);
+    g_assert_cmpint(clock() - begin, <, CLOCKS_PER_SEC);
     built_free(built);
 }
 
