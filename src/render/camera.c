@@ -8,8 +8,9 @@
 #include <math.h>
 
 #define MARGIN 0.06f
-#define DEFAULT_AZIMUTH (-30.0)
-#define DEFAULT_FIELD 35.0
+#define DEGREE (G_PI / 180.0)
+#define DEFAULT_AZIMUTH (-30.0 * DEGREE)
+#define DEFAULT_FIELD (35.0 * DEGREE)
 
 // With more vertices than this, every so many are looked at.
 enum { POINTS_LOOKED_AT = 4000000 };
@@ -107,7 +108,7 @@ static vec3s stand_back(const FrWorld *world, const FrCamera *camera, const Box 
 static double default_elevation(const Box *box) {
     double height = fmax((double)(box->max.z - fmaxf(box->min.z, 0.0f)), 1e-3);
     double part = fmin(fmax(log(height / 0.4) / log(6.0 / 0.4), 0.0), 1.0);
-    return 16.0 + part * (3.0 - 16.0);
+    return (16.0 + part * (3.0 - 16.0)) * DEGREE;
 }
 
 static void set_directions(FrCamera *camera, double azimuth, double elevation) {
@@ -124,9 +125,9 @@ FrCamera fr_camera_frame(const FrWorld *world, const FrViewParams *view, float a
     double elevation = view != NULL ? view->elevation : default_elevation(&box);
     double field = view != NULL ? view->field_of_view : DEFAULT_FIELD;
     float zoom = view != NULL ? (float)view->zoom : 1.0f;
-    FrCamera camera = {.half_height = (float)tan(field * (G_PI / 360.0))};
+    FrCamera camera = {.half_height = (float)tan(0.5 * field)};
     camera.half_width = camera.half_height * aspect;
-    set_directions(&camera, azimuth * (G_PI / 180.0), elevation * (G_PI / 180.0));
+    set_directions(&camera, azimuth, elevation);
 
     vec3s place = stand_back(world, &camera, &box);
     vec3s middle = glms_vec3_scale(glms_vec3_add(box.min, box.max), 0.5f);

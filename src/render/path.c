@@ -87,7 +87,7 @@ static bool pass_haze(Path *path, vec3s direction, float distance) {
     if (part <= 0.0f) {
         return true;
     }
-    vec3s level = {{direction.x, direction.y, 0.012f}};
+    vec3s level = {{direction.x, direction.y, 0.0f}};
     vec3s horizon = fr_sky_radiance(path->world->sky, glms_vec3_normalize(level));
     add_light(path, glms_vec3_scale(horizon, part));
     path->throughput = glms_vec3_scale(path->throughput, 1.0f - part);

@@ -166,8 +166,8 @@ static void fill_below(FrSky *sky) {
 
 FrSky *fr_sky_new(const FrSceneParams *params, bool has_ground, const FrContext *context) {
     FrSky *sky = new_table(SKY_COLUMNS, SKY_ROWS);
-    double azimuth = params->sun_azimuth * (G_PI / 180.0);
-    double elevation = params->sun_elevation * (G_PI / 180.0);
+    double azimuth = params->sun_azimuth;
+    double elevation = params->sun_elevation;
     vec3s sun = {{(float)(sin(azimuth) * cos(elevation)), (float)(cos(azimuth) * cos(elevation)),
                   (float)sin(elevation)}};
     sky->sun_direction = sun;

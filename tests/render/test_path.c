@@ -158,7 +158,7 @@ static void test_camera(void) {
     fr_world_commit(world);
     static const float aspects[] = {0.2f, 0.8f, 3.0f};
     for (size_t a = 0; a < G_N_ELEMENTS(aspects); a++) {
-        FrViewParams view = {.azimuth = 40, .elevation = 20, .field_of_view = 50, .zoom = 1};
+        FrViewParams view = {.azimuth = 0.7, .elevation = 0.35, .field_of_view = 0.87, .zoom = 1};
         FrCamera camera = fr_camera_frame(world, &view, aspects[a]);
         float min_x = 1, max_x = 0, min_y = 1, max_y = 0;
         for (int y = 0; y < 200; y++) {
@@ -187,11 +187,11 @@ static void test_camera(void) {
 static void test_camera_side(void) {
     FrWorld *world = fr_world_new(fr_sky_new_uniform(grey(1), true), NULL);
     fr_world_commit(world);
-    FrViewParams view = {.azimuth = 0, .elevation = 0, .field_of_view = 40, .zoom = 1};
+    FrViewParams view = {.azimuth = 0, .elevation = 0, .field_of_view = 0.7, .zoom = 1};
     FrCamera camera = fr_camera_frame(world, &view, 1);
     g_assert_cmpfloat(camera.origin.y, <, -1.0f);
     g_assert_cmpfloat_with_epsilon(camera.origin.x, 0, 1e-4);
-    view.azimuth = 90;
+    view.azimuth = 0.5 * G_PI;
     FrCamera right = fr_camera_frame(world, &view, 1);
     g_assert_cmpfloat(right.origin.x, >, 1.0f);
     view.zoom = 2;

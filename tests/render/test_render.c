@@ -9,8 +9,8 @@ static vec3s grey(float value) {
 }
 
 static FrSceneParams clear_day(void) {
-    return (FrSceneParams){.sun_azimuth = 135,
-                           .sun_elevation = 42,
+    return (FrSceneParams){.sun_azimuth = 2.4,
+                           .sun_elevation = 0.73,
                            .sun_strength = 1,
                            .sky_strength = 1,
                            .turbidity = 3,
@@ -129,7 +129,7 @@ static void test_sizes(void) {
 static void test_views(void) {
     EmptyScene empty;
     empty_scene_init(&empty);
-    FrViewParams close = {.name = "close-up", .field_of_view = 30, .zoom = 1};
+    FrViewParams close = {.name = "close-up", .field_of_view = 0.5, .zoom = 1};
     g_ptr_array_add(empty.scene.views, &close);
     FrContext context = fr_context_default();
     context.diags = fr_diags_new();

@@ -6,8 +6,8 @@
 #include <math.h>
 
 static FrSceneParams scene(double elevation, double turbidity) {
-    return (FrSceneParams){.sun_azimuth = 90,
-                           .sun_elevation = elevation,
+    return (FrSceneParams){.sun_azimuth = 0.5 * G_PI,
+                           .sun_elevation = elevation * (G_PI / 180.0),
                            .sun_strength = 1,
                            .sky_strength = 1,
                            .turbidity = turbidity};
