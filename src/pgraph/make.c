@@ -147,8 +147,10 @@ static void make_leaf(const FrExpansion *expansion, uint32_t row, FrEvaluator *e
         leaf_rotation(expansion, prepared_of(expansion, row)->params, pose, evaluator);
     uint32_t organ = level->organ_count[row];
     write_organ(expansion, row, organ, placed, leaf_shape(expansion, row, organ, evaluator));
-    fr_make_single_children(expansion, row, single_child(expansion, row, pose),
-                            level->child_count[row]);
+    if (fr_instance_stage(expansion, row)->link_count > 0) {
+        fr_make_single_children(expansion, row, single_child(expansion, row, pose),
+                                level->child_count[row]);
+    }
 }
 
 // ---- simple -----------------------------------------------------------------------------------

@@ -2,6 +2,8 @@
 #include "pgraph/golden.h"
 #include "pgraph/instance.h"
 
+#include "plant/frames.h"
+
 #include <math.h>
 
 #define PI 3.14159265358979323846
@@ -101,10 +103,15 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
     azimuth += jitter != 0 ? jitter * fr_random_signed(key, FR_TREE_azimuth_jitter, 1) : 0;
     versors turn = turned_zyz(azimuth, FR_GET(branching_angle), PI / 2 + FR_GET(roll));
     double radius = fr_stem_radius(stem, branching->at);
-    double away = fmod(azimuth, 2 * PI);
-    *reach =
-        (vec3s){{(float)(radius * cos(away)), (float)(radius * stem->flatness * sin(away)), 0}};
-    site = fr_pose_moved(site, (vec3s){{0, 0, 0}}, turn);
+    azimuth -= 2 * PI * floor(azimuth / (2 * PI));
+    *reach = (vec3s){{(float)radius * cosf((float)azimuth),
+                      (float)(radius * stem->flatness) * sinf((float)azimuth), 0}};
+    if (stem->internodes > 0) {
+        site.rotation = turn; // internodes have the stem's frame
+    } else {
+        *reach = fr_turned(site.rotation, *reach);
+        site.rotation = fr_frame_step(site.rotation, turn);
+    }
     site.scale = branching->base.scale * FR_GET(child_scale);
 #undef FR_GET
     return (FrChild){
@@ -147,10 +154,9 @@ uint32_t fr_make_branches(const FrExpansion *expansion, uint32_t row, const FrSt
             }
             FrChild one = child;
             if (is_on_surface(branching.tree, to)) {
-                // The site's rotation is the branch's: move it in the stem's frame.
-                FrPose axis = {.offset = child.site.offset, .rotation = {{0, 0, 0, 1}}};
-                axis.rotation = stem->internodes > 0 ? axis.rotation : base.rotation;
-                one.site.offset = fr_pose_moved(axis, reach, (versors){{0, 0, 0, 1}}).offset;
+                one.site.offset.x += reach.x;
+                one.site.offset.y += reach.y;
+                one.site.offset.z += reach.z;
             }
             fr_child_write(expansion, row, link, &one, at++);
         }

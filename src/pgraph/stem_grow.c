@@ -64,9 +64,6 @@ static versors walk_to(const FrStem *stem, Walk *walk, double at, double zigzag_
 
 // Adds to `turn`, given in the frame `parent`, what the fields turn the stem by over `step`.
 static versors with_fields(const FrStem *stem, versors parent, versors turn, double step) {
-    if (!fr_tropism_acts(stem->tropism)) {
-        return turn;
-    }
     versors field = fr_tropism_turn(stem->tropism, fr_frame_step(parent, turn), step);
     versors back = {{-parent.x, -parent.y, -parent.z, parent.w}};
     // The same rotation about its axis as the parent sees it.
@@ -96,11 +93,19 @@ static versors frame_before(const FrPlant *plant, uint32_t axis, uint32_t first,
     return before != FR_NONE ? plant->nodes.frame[before] : identity;
 }
 
+// Whether every internode but the first turns by the same, fields not counted.
+static bool is_steady(const FrStem *stem) {
+    const FrStemParams *params = stem->prepared->params;
+    return stem->gaps == 0 && stem->gnarl <= 0 && params->curvature_curve == NULL;
+}
+
 static versors grow_evenly(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t first,
                            versors start) {
     Walk walk = {0};
     double end = 0;
     uint32_t each = stem->gaps > 0 ? stem->internodes / stem->gaps : stem->internodes;
+    bool steady = is_steady(stem), has_fields = fr_tropism_acts(stem->tropism);
+    versors turn = identity;
     for (uint32_t k = 0; k < stem->internodes; k++) {
         double begin = end, zigzag_x = 0, zigzag_y = 0;
         end = fr_stem_node_end(stem, k);
@@ -110,17 +115,23 @@ static versors grow_evenly(const FrStem *stem, FrPlant *plant, uint32_t axis, ui
             zigzag_y = -stem->deviation * cos(azimuth);
         }
         double middle = 0.5 * (begin + end), step = middle - walk.at;
-        versors turn = walk_to(stem, &walk, middle, zigzag_x, zigzag_y);
-        if (k == 0) {
-            turn = fr_frame_step(start, turn);
+        if (k <= 1 || !steady) {
+            turn = walk_to(stem, &walk, middle, zigzag_x, zigzag_y);
         }
-        turn = with_fields(stem, frame_before(plant, axis, first, k), turn, step);
-        write_node(plant, axis, first + k, first, turn, (end - begin) * stem->length,
+        walk.at = middle;
+        versors own = k > 0 ? turn : fr_frame_step(start, turn);
+        if (has_fields) {
+            own = with_fields(stem, frame_before(plant, axis, first, k), own, step);
+        }
+        write_node(plant, axis, first + k, first, own, (end - begin) * stem->length,
                    fr_stem_radius(stem, end), stem->flatness);
     }
     double step = 1 - walk.at;
-    versors turn = walk_to(stem, &walk, 1, 0, 0);
-    return with_fields(stem, plant->nodes.frame[first + stem->internodes - 1], turn, step);
+    walk.bend = bend_up_to(stem, walk.at);
+    turn = walk_to(stem, &walk, 1, 0, 0);
+    return has_fields
+               ? with_fields(stem, plant->nodes.frame[first + stem->internodes - 1], turn, step)
+               : turn;
 }
 
 static versors grow_steps(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t first,
