@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-enum { EVALUATIONS = 4000000 };
+enum { EVALUATIONS = 100000 };
 
 typedef struct Work {
     FrExpr *expr;
@@ -80,18 +80,22 @@ void bench_expr(void) {
     for (size_t i = 0; i < G_N_ELEMENTS(expressions); i++) {
         Work work = {.formula = expressions[i].formula};
         work.expr = fr_expr_compile(expressions[i].text, (FrSpan){0}, NULL, NULL);
-        double rate = EVALUATIONS / bench_shortest(3, evaluate, &work);
-        double limit = EVALUATIONS / bench_shortest(3, compute, &work);
+        double rate = EVALUATIONS / bench_shortest(60, evaluate, &work);
+        double limit = EVALUATIONS / bench_shortest(60, compute, &work);
         bench_tell(expressions[i].name, rate, limit, "evaluations/s", "%s; limit: the same in C",
                    expressions[i].text);
         fr_expr_unref(work.expr);
     }
-    static const char *const numbers[] = {"80..30 ~ 5", "80..30 ~ 5 : t^2", "80..30 : bell"};
+    static const char *const numbers[][2] = {
+        {"expr.number", "80..30 ~ 5"},
+        {"expr.number-function", "80..30 ~ 5 : t^2"},
+        {"expr.number-curve", "80..30 : bell"},
+    };
     for (size_t i = 0; i < G_N_ELEMENTS(numbers); i++) {
         Work work = {0};
-        fr_number_parse(&work.number, numbers[i], (FrSpan){0}, 1, 0, 90, NULL, NULL);
-        double rate = EVALUATIONS / bench_shortest(3, evaluate_number, &work);
-        bench_tell("expr.number", rate, 0, "numbers/s", "%s", numbers[i]);
+        fr_number_parse(&work.number, numbers[i][1], (FrSpan){0}, 1, 0, 90, NULL, NULL);
+        double rate = EVALUATIONS / bench_shortest(60, evaluate_number, &work);
+        bench_tell(numbers[i][0], rate, 0, "numbers/s", "%s", numbers[i][1]);
         fr_number_clear(&work.number);
     }
 }

@@ -92,7 +92,14 @@ double fr_expr_eval_with(const FrExpr *expr, const FrVars *vars, const double *e
     const double *constants = expr->constants;
     const double *variables = vars->value;
 
-#define NEXT goto *labels[(++at)->op]
+// The empty statement differs from place to place, which keeps gcc from folding the jumps of all
+// instructions back into one that no processor predicts.
+#define NEXT                                                                                       \
+    do {                                                                                           \
+        at++;                                                                                      \
+        __asm__ volatile("" : : "i"(__COUNTER__));                                                 \
+        goto *labels[at->op];                                                                      \
+    } while (0)
 #define PUSH(value)                                                                                \
     do {                                                                                           \
         *below++ = top;                                                                            \
