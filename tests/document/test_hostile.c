@@ -31,10 +31,11 @@ static void test_no_text(void) {
 }
 
 static void test_entities(void) {
-    static const char *const texts[] = {
-        // the billion laughs
+    static const char billion_laughs[] =
         "<!DOCTYPE a [<!ENTITY a 'ha'><!ENTITY b '&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;'>"
-        "<!ENTITY c '&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;'>]>\n<frond version='1'>&c;</frond>",
+        "<!ENTITY c '&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;'>]>\n<frond version='1'>&c;</frond>";
+    static const char *const texts[] = {
+        billion_laughs,
         // a file of the machine
         "<!DOCTYPE a [<!ENTITY a SYSTEM 'file:///etc/passwd'>]><frond version='1'>&a;</frond>",
         // the network
@@ -77,7 +78,7 @@ static void test_limits(void) {
         {"<![CDATA[]]>", "", "limit-elements", FR_ERR_LIMIT},
     };
     for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
-        char *text = repeated(rows[i].open, rows[i].close, 1000000);
+        char *text = repeated(rows[i].open, rows[i].close, 250000);
         Parsed parsed = parse(text);
         g_assert_cmpint(parsed.status, ==, rows[i].status);
         g_assert_cmpuint(fr_diags_error_count(parsed.diags), ==, 1);
@@ -125,16 +126,16 @@ static void test_attributes(void) {
 /// Every element wrong: all counted, twenty kept, in time linear in the document.
 static void test_many_errors(void) {
     GString *text = g_string_new("<frond version='1'><plant id='p'><pgraph>");
-    for (int i = 0; i < 40000; i++) {
+    for (int i = 0; i < 10000; i++) {
         g_string_append_printf(text, "<horn id='some-rather-long-component-name-%d'/>", i);
     }
-    for (int i = 0; i < 40000; i++) {
+    for (int i = 0; i < 10000; i++) {
         g_string_append_printf(text, "<link from='some-rather-lnog-component-name-%d' to=''/>", i);
     }
     g_string_append(text, "</pgraph></plant></frond>");
     Parsed parsed = parse(text->str);
     g_assert_cmpint(parsed.status, ==, FR_ERR_DOCUMENT);
-    g_assert_cmpuint(fr_diags_error_count(parsed.diags), >=, 40000);
+    g_assert_cmpuint(fr_diags_error_count(parsed.diags), >=, 10000);
     g_assert_cmpuint(fr_diags_count(parsed.diags), ==, 20);
     forget(&parsed);
     g_string_free(text, TRUE);
@@ -186,10 +187,11 @@ int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/document/hostile/only UTF-8 is read", test_no_text);
     g_test_add_func("/document/hostile/entities and document types are refused", test_entities);
-    g_test_add_func("/document/hostile/a million elements stop at a limit", test_limits);
+    g_test_add_func("/document/hostile/a quarter of a million elements stop at a limit",
+                    test_limits);
     g_test_add_func("/document/hostile/bytes are limited", test_document_bytes);
     g_test_add_func("/document/hostile/a million attributes are refused", test_attributes);
-    g_test_add_func("/document/hostile/forty thousand errors are counted", test_many_errors);
+    g_test_add_func("/document/hostile/ten thousand errors are counted", test_many_errors);
     g_test_add_func("/document/hostile/a document cut off anywhere is refused", test_truncated);
     g_test_add_func("/document/hostile/changed bytes do no harm", test_mutated);
     return g_test_run();
