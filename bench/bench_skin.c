@@ -24,7 +24,7 @@ typedef struct Skinning {
     FrSkinParams params;
     FrContext context;
     uint64_t vertices, triangles;
-  
+
 } Skinning;
 
 static void skin(void *data) {
