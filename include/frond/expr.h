@@ -89,5 +89,5 @@ FR_API bool fr_expr_uses(const FrExpr *expr, FrVar var);
 FR_API bool fr_expr_is_random(const FrExpr *expr);
 /// The text it was compiled from.
 FR_API const char *fr_expr_text(const FrExpr *expr);
-/// Writes the diagnostic for a fault; `what` says which parameter of which component.
+/// Writes the warning for a fault; `what` says which parameter of which component.
 FR_API void fr_expr_report_fault(const FrExprFault *fault, const char *what, FrDiags *diags);
