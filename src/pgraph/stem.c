@@ -8,8 +8,10 @@
 
 enum { MOST_ADAPTIVE = 256, INTERNODES_OF_PROFILE = 8, MOST_BEADS = 1000 };
 
-// An internode for so many radians of turn, and so many for each gnarl.
+// An internode for so many radians of turn, of which a gnarl makes so many times its own angle;
+// but never more internodes for one gnarl than show its form.
 #define BEND_PER_INTERNODE (12 * DEGREE)
+#define TURNS_PER_GNARL 2.5
 #define INTERNODES_PER_GNARL 5.0
 // A place nearer to the tip than this stands on it.
 #define AT_TIP 1e-6
@@ -30,7 +32,9 @@ static uint32_t adaptive_internodes(const FrStem *stem) {
     turn += PI * (1 - exp(-pull));
     double count = turn / BEND_PER_INTERNODE;
     if (stem->gnarl > 0) {
-        count = fmax(count, stem->gnarl_frequency * INTERNODES_PER_GNARL);
+        double most = INTERNODES_PER_GNARL * stem->gnarl_frequency;
+        double wanted = TURNS_PER_GNARL * stem->gnarl * stem->gnarl_frequency / BEND_PER_INTERNODE;
+        count = fmax(count, fmin(most, fmax(wanted, stem->gnarl_frequency)));
     }
     if (params->profile != NULL) {
         count = fmax(count, INTERNODES_OF_PROFILE);
