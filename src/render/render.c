@@ -16,7 +16,7 @@ enum { TILE = 16, FILTER_STEPS = 64 };
 // Pixels' filters reach this far from their middles, in pixels.
 #define FILTER_RADIUS 1.5f
 // Distant ground is hazy from so many camera distances on.
-#define HAZE_DISTANCES 9.0f
+#define HAZE_DISTANCES 16.0f
 // How far colours are balanced towards the light that falls into the picture being white.
 #define BALANCE_PART 0.75f
 

@@ -9,7 +9,7 @@
 
 #define SUN_ANGULAR_RADIUS 0.00465f
 
-enum { SKY_COLUMNS = 256, SKY_ROWS = 512 };
+enum { SKY_COLUMNS = 256, SKY_ROWS = 512, BLOCK = 4 };
 
 static FrSky *new_table(uint32_t columns, uint32_t rows) {
     FrSky *sky = g_new0(FrSky, 1);
@@ -17,9 +17,9 @@ static FrSky *new_table(uint32_t columns, uint32_t rows) {
     sky->columns = columns;
     sky->rows = rows;
     sky->radiance = g_new0(vec3s, cells);
-    sky->row_cdf = g_new0(float, rows + 1);
-    sky->column_cdf = g_new0(float, (size_t)(columns + 1) * rows);
-    sky->cell_density = g_new0(float, cells);
+    sky->row_cdf = g_new0(float, rows / BLOCK + 1);
+    sky->column_cdf = g_new0(float, (size_t)(columns / BLOCK + 1) * (rows / BLOCK));
+    sky->block_density = g_new0(float, cells / (BLOCK * BLOCK));
     sky->sun_direction = (vec3s){{0, 0, 1}};
     sky->sun_cosine = cosf(SUN_ANGULAR_RADIUS);
     return sky;
@@ -32,7 +32,7 @@ void fr_sky_free(FrSky *sky) {
     g_free(sky->radiance);
     g_free(sky->row_cdf);
     g_free(sky->column_cdf);
-    g_free(sky->cell_density);
+    g_free(sky->block_density);
     g_free(sky);
 }
 
@@ -59,36 +59,47 @@ static double make_cdf(const double *weights, uint32_t count, float *cdf) {
     return sum;
 }
 
-// Every cell that has light, or lies beside one that has, keeps some probability: radiance is
-// interpolated between cells, and a direction with light must not be impossible.
-static void make_distribution(FrSky *sky) {
-    double *weights = g_new(double, sky->columns);
-    double *row_weights = g_new(double, sky->rows);
-    size_t cells = (size_t)sky->columns * sky->rows;
-    double mean = 0.0;
-    for (size_t i = 0; i < cells; i++) {
-        mean += (double)fr_luminance(sky->radiance[i]) / (double)cells;
-    }
-    double cell_angle = 4.0 * G_PI / (double)cells;
-    for (uint32_t row = 0; row < sky->rows; row++) {
-        const vec3s *line = sky->radiance + (size_t)row * sky->columns;
-        double brightest = 0.0;
-        for (uint32_t i = 0; i < sky->columns; i++) {
-            brightest = fmax(brightest, (double)fr_luminance(line[i]));
+static double block_luminance(const FrSky *sky, uint32_t row, uint32_t column) {
+    double sum = 0.0;
+    for (uint32_t y = row * BLOCK; y < (row + 1) * BLOCK; y++) {
+        for (uint32_t x = column * BLOCK; x < (column + 1) * BLOCK; x++) {
+            sum += (double)fr_luminance(sky->radiance[(size_t)y * sky->columns + x]);
         }
-        for (uint32_t i = 0; i < sky->columns; i++) {
-            weights[i] = brightest > 0.0 ? (double)fr_luminance(line[i]) + 0.02 * mean : 0.0;
+    }
+    return sum / (BLOCK * BLOCK);
+}
+
+// Every block of a row that has light keeps some probability: radiance is interpolated between
+// cells, and a direction with light must not be impossible.
+static void make_distribution(FrSky *sky) {
+    uint32_t columns = sky->columns / BLOCK;
+    uint32_t rows = sky->rows / BLOCK;
+    double *weights = g_new(double, columns);
+    double *row_weights = g_new(double, rows);
+    double mean = 0.0;
+    for (uint32_t i = 0; i < columns * rows; i++) {
+        mean += block_luminance(sky, i / columns, i % columns) / (columns * rows);
+    }
+    double block_angle = 4.0 * G_PI / (columns * rows);
+    for (uint32_t row = 0; row < rows; row++) {
+        double brightest = 0.0;
+        for (uint32_t i = 0; i < columns; i++) {
+            weights[i] = block_luminance(sky, row, i);
+            brightest = fmax(brightest, weights[i]);
+        }
+        for (uint32_t i = 0; i < columns; i++) {
+            weights[i] += brightest > 0.0 ? 0.02 * mean : 0.0;
         }
         row_weights[row] =
-            make_cdf(weights, sky->columns, sky->column_cdf + (size_t)row * (sky->columns + 1));
+            make_cdf(weights, columns, sky->column_cdf + (size_t)row * (columns + 1));
     }
-    double total = make_cdf(row_weights, sky->rows, sky->row_cdf);
-    for (uint32_t row = 0; row < sky->rows; row++) {
-        const float *cdf = sky->column_cdf + (size_t)row * (sky->columns + 1);
+    double total = make_cdf(row_weights, rows, sky->row_cdf);
+    for (uint32_t row = 0; row < rows; row++) {
+        const float *cdf = sky->column_cdf + (size_t)row * (columns + 1);
         float row_part = total > 0.0 ? sky->row_cdf[row + 1] - sky->row_cdf[row] : 0.0f;
-        for (uint32_t i = 0; i < sky->columns; i++) {
-            sky->cell_density[(size_t)row * sky->columns + i] =
-                row_part * (cdf[i + 1] - cdf[i]) / (float)cell_angle;
+        for (uint32_t i = 0; i < columns; i++) {
+            sky->block_density[(size_t)row * columns + i] =
+                row_part * (cdf[i + 1] - cdf[i]) / (float)block_angle;
         }
     }
     g_free(weights);
@@ -120,8 +131,8 @@ void fr_sky_set_sun(FrSky *sky, vec3s direction, vec3s irradiance) {
 }
 
 FrSky *fr_sky_new_uniform(vec3s radiance, bool is_sphere) {
-    FrSky *sky = new_table(8, 8);
-    for (uint32_t i = is_sphere ? 0 : 32; i < 64; i++) {
+    FrSky *sky = new_table(8, 16);
+    for (uint32_t i = is_sphere ? 0 : 64; i < 128; i++) {
         sky->radiance[i] = radiance;
     }
     make_distribution(sky);
@@ -184,13 +195,15 @@ FrSky *fr_sky_new(const FrSceneParams *params, bool has_ground, const FrContext 
     return sky;
 }
 
-static size_t cell_of(const FrSky *sky, vec3s direction) {
+static size_t block_of(const FrSky *sky, vec3s direction) {
+    uint32_t columns = sky->columns / BLOCK;
+    uint32_t rows = sky->rows / BLOCK;
     float turn = atan2f(direction.y, direction.x) / (2.0f * FR_PI_F);
-    float x = (turn - floorf(turn)) * (float)sky->columns;
-    float y = (direction.z * 0.5f + 0.5f) * (float)sky->rows;
-    uint32_t column = (uint32_t)fminf(x, (float)(sky->columns - 1));
-    uint32_t row = (uint32_t)fminf(fmaxf(y, 0.0f), (float)(sky->rows - 1));
-    return (size_t)row * sky->columns + column;
+    float x = (turn - floorf(turn)) * (float)columns;
+    float y = (direction.z * 0.5f + 0.5f) * (float)rows;
+    uint32_t column = (uint32_t)fminf(x, (float)(columns - 1));
+    uint32_t row = (uint32_t)fminf(fmaxf(y, 0.0f), (float)(rows - 1));
+    return (size_t)row * columns + column;
 }
 
 // Bilinear, but never across the horizon.
@@ -239,18 +252,19 @@ static uint32_t search(const float *cdf, uint32_t count, float u) {
 }
 
 vec3s fr_sky_sample(const FrSky *sky, float u, float v, float *density) {
-    uint32_t row = search(sky->row_cdf, sky->rows, u);
+    uint32_t columns = sky->columns / BLOCK;
+    uint32_t row = search(sky->row_cdf, sky->rows / BLOCK, u);
     float row_part = sky->row_cdf[row + 1] - sky->row_cdf[row];
     float in_row = (u - sky->row_cdf[row]) / row_part;
-    const float *cdf = sky->column_cdf + (size_t)row * (sky->columns + 1);
-    uint32_t column = search(cdf, sky->columns, v);
+    const float *cdf = sky->column_cdf + (size_t)row * (columns + 1);
+    uint32_t column = search(cdf, columns, v);
     float in_column = (v - cdf[column]) / (cdf[column + 1] - cdf[column]);
-    *density = sky->cell_density[(size_t)row * sky->columns + column];
-    return cell_direction(sky, (float)column + in_column, (float)row + in_row);
+    *density = sky->block_density[(size_t)row * columns + column];
+    return cell_direction(sky, BLOCK * ((float)column + in_column), BLOCK * ((float)row + in_row));
 }
 
 float fr_sky_density(const FrSky *sky, vec3s direction) {
-    return sky->cell_density[cell_of(sky, direction)];
+    return sky->block_density[block_of(sky, direction)];
 }
 
 vec3s fr_sky_sample_sun(const FrSky *sky, float u, float v) {

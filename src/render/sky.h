@@ -2,18 +2,19 @@
 /// Light from outside the scene: a sun disc and a table of the sky's radiance. Private to render.
 ///
 /// The table has rows of equal height in z = −1 … 1 and columns of equal azimuth, so all its cells
-/// subtend the same solid angle (Lambert's equal-area cylinder).
+/// subtend the same solid angle (Lambert's equal-area cylinder). Directions are drawn from blocks
+/// of 4 × 4 cells: a table that stays in the cache is worth more than a finer one.
 #pragma once
 
 #include "frond/context.h"
 #include "frond/scene.h"
 
 typedef struct FrSky {
-    uint32_t columns, rows; ///< rows is even; the upper half begins at rows / 2
+    uint32_t columns, rows; ///< columns a multiple of 4, rows of 8; the upper half is at rows / 2
     vec3s *radiance;        ///< by cell
-    float *row_cdf;         ///< rows + 1
-    float *column_cdf;      ///< (columns + 1) for each row
-    float *cell_density;    ///< probability density by cell, per steradian
+    float *row_cdf;         ///< rows / 4 + 1
+    float *column_cdf;      ///< (columns / 4 + 1) for each row of blocks
+    float *block_density;   ///< probability density by block, per steradian
     vec3s sun_direction;    ///< unit, to the sun
     vec3s sun_irradiance;   ///< on a surface that faces the sun
     float sun_cosine;       ///< of the disc's angular radius
