@@ -211,7 +211,7 @@ static void test_interrupted(void) {
     char *folder = enter_folder(&previous);
     pid_t child = start("render $S/examples/figure2.frond -o f.png --size 4000x4000 "
                         "--samples 65536 --threads 1");
-    g_usleep(700000);
+    g_usleep(1500000);
     kill(child, SIGINT);
     Run did = finish(child);
     g_assert_cmpint(did.signal, ==, SIGINT);
