@@ -164,7 +164,7 @@ static void lay_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBladeForm
     bool is_level = blade->curvature_across == 0.0F && blade->fold == 0.0F && blade->wave == 0.0F &&
                     blade->twist == 0.0F;
     // Two columns do where nothing bends across, and from far away.
-    uint32_t columns = across == 1 && (is_level || detail->lod > 1) ? 2 : 2 * across + 1;
+    uint32_t columns = across == 1 && (is_level || detail->lod > 3) ? 2 : 2 * across + 1;
     fr_outline_rows(&outline, along, rows);
     uint32_t low = 0, low_count = 0;
     for (uint32_t i = 0; i <= along; i++) {

@@ -177,12 +177,13 @@ static void nest(const FrPlan *plan, uint32_t node, const FrInternode *internode
         glms_vec3_muladds(internode->along, -fmaxf(internode->beyond, 0.0F), internode->axis_point);
     vec3s facing = internode->along;
     float depth = is_point(plan, node) ? 2.2F * radius : 0.2F * radius;
-    if (glms_vec3_dot(collar->direction, facing) < 0.3F) {
-        // It turns back too far for that: a ring across itself, drawn into the parent.
-        radius = fminf(collar->radius, 0.9F * collar->parent_radius);
-        centre = collar->origin;
+    float forth = glms_vec3_dot(collar->direction, facing);
+    if (forth < -0.5F) {
+        // It turns back too far for that: a ring across itself, far enough down the parent.
+        radius = fminf(collar->radius, 0.8F * collar->parent_radius);
+        centre = glms_vec3_muladds(facing, -1.2F * radius * sqrtf(1.0F - forth * forth), centre);
         facing = collar->direction;
-        depth = 0.3F * radius;
+        depth = 0.0F;
     }
     radius = fmaxf(radius, fr_smallest_length(centre, collar->radius));
     float join = fminf(0.7F * (radius + collar->radius), 0.4F * length);
@@ -191,8 +192,8 @@ static void nest(const FrPlan *plan, uint32_t node, const FrInternode *internode
     collar->along = facing;
     collar->parent_radius = radius;
     collar->exit_distance = 0.0F;
-    collar->rings = 1;
     collar->has_join = is_fine && join > 0.5F * collar->radius;
+    collar->rings = collar->has_join && plan->detail.lod == 0 ? 3 : 1;
     collar->join = join;
     collar->clear = collar->has_join ? join + 0.3F * collar->radius : 0.5F * join;
 }
@@ -252,13 +253,12 @@ static struct FrLimbRing ring_of(const FrPlan *plan, uint32_t node) {
     };
 }
 
-// The rings before the tip of `node`, nearest first.
+// The rings before the tip of `node`, nearest first; at least one.
 static uint32_t gather_back(const FrPlan *plan, uint32_t node, float enough,
                             struct FrLimbRing *rings) {
     const FrPlant *plant = plan->plant;
     uint32_t count = 0;
-    int walk = 0;
-    while (count < FR_LIMB_MOST / 2 && walk++ < WALK_MOST && enough > 0.0F) {
+    for (int walk = 0; count < FR_LIMB_MOST / 2 && walk <= WALK_MOST; walk++) {
         enough -= plant->nodes.length[node];
         uint32_t before = node_before(plan, node);
         if (before == FR_NONE) {
@@ -268,26 +268,39 @@ static uint32_t gather_back(const FrPlan *plan, uint32_t node, float enough,
             break;
         }
         node = before;
-        if (plan->keep[node] || enough <= 0.0F) {
-            rings[count++] = ring_of(plan, node);
-        }
-    }
-    return count;
-}
-
-static uint32_t gather_forth(const FrPlan *plan, uint32_t node, float enough,
-                             struct FrLimbRing *rings) {
-    uint32_t count = 0;
-    int walk = 0;
-    while (node != FR_NONE && count < FR_LIMB_MOST / 2 && walk++ < WALK_MOST) {
-        if (plan->keep[node] || fr_plan_next(plan, node) == FR_NONE) {
+        if (plan->keep[node] || walk == WALK_MOST) {
             rings[count++] = ring_of(plan, node);
             if (enough <= 0.0F) {
                 break;
             }
         }
+    }
+    return count;
+}
+
+// The rings from the tip of `node` on, after at least one in `rings[-1]`.
+static uint32_t gather_forth(const FrPlan *plan, uint32_t node, float enough,
+                             struct FrLimbRing *rings) {
+    const FrNodes *nodes = &plan->plant->nodes;
+    uint32_t count = 0;
+    for (int walk = 0; count < FR_LIMB_MOST / 2 && walk <= WALK_MOST; walk++) {
+        bool is_end = fr_plan_next(plan, node) == FR_NONE;
+        if (plan->keep[node] == FR_KEEP_SHOULDER) {
+            struct FrLimbRing *before = &rings[(int)count - 1];
+            float part = fr_shoulder_part(before->at, nodes->position[node], nodes->radius[node]);
+            vec3s step = glms_vec3_sub(nodes->position[node], before->at);
+            rings[count++] = (struct FrLimbRing){
+                .at = glms_vec3_muladds(step, part, before->at),
+                .radius = before->radius + part * (nodes->radius[node] - before->radius)};
+        }
+        if (plan->keep[node] || is_end || walk == WALK_MOST) {
+            rings[count++] = ring_of(plan, node);
+            if (enough <= 0.0F || is_end) {
+                break;
+            }
+        }
         node = fr_plan_next(plan, node);
-        enough -= node == FR_NONE ? 0.0F : plan->plant->nodes.length[node];
+        enough -= nodes->length[node];
     }
     return count;
 }

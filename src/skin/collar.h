@@ -30,7 +30,7 @@ FrCollar fr_collar_find(const FrPlan *plan, const FrTube *tube, uint32_t sides);
 /// Point, direction and radius of a tube `distance` metres along it, by its nodes.
 void fr_tube_at(const FrPlan *plan, const FrTube *tube, float distance, vec3s *at, float *radius);
 
-enum { FR_LIMB_MOST = 49 };
+enum { FR_LIMB_MOST = 50 };
 
 /// The parent near a branch as it is skinned: its rings.
 typedef struct FrLimb {

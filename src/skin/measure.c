@@ -66,7 +66,7 @@ static bool thin_out(FrPlan *plan, const FrTube *tube, const FrCollar *collar, u
             float least = fr_smallest_length(nodes->position[before], nodes->radius[before]);
             bool is_too_near = band.length < least || along < clear;
             if (!is_too_near) {
-                plan->keep[before] = 1;
+                plan->keep[before] = FR_KEEP_RING;
                 (*kept)++;
             }
             band = band_at(is_too_near ? band.anchor : before, nodes->radius[before]);
@@ -79,7 +79,7 @@ static bool thin_out(FrPlan *plan, const FrTube *tube, const FrCollar *collar, u
         }
     }
     float least = fr_smallest_length(nodes->position[tube->last], nodes->radius[tube->last]);
-    plan->keep[tube->last] = 1;
+    plan->keep[tube->last] = FR_KEEP_RING;
     if (along - clear < least) {
         return along >= least && collar != NULL;
     }
@@ -104,7 +104,7 @@ static void keep_point_sets(FrPlan *plan, FrTube *tube) {
         bool is_same = before != FR_NONE &&
                        glms_vec3_distance(nodes->position[node], nodes->position[before]) < least &&
                        fabsf(nodes->radius[node] - nodes->radius[before]) < least;
-        plan->keep[node] = !is_same;
+        plan->keep[node] = is_same ? 0 : FR_KEEP_RING;
         if (!is_same) {
             rings++;
             before = node;
@@ -136,6 +136,9 @@ static void count_rings(FrPlan *plan, FrTube *tube) {
     bool is_coarse = plan->detail.lod > 0 && sides < 6;
     tube->has_shoulder = tube->end == FR_END_POINT && tip > 0.35F * band.radius && !is_coarse &&
                          band.length > 4.0F * fr_smallest_length(nodes->position[tube->last], tip);
+    if (tube->has_shoulder) {
+        plan->keep[tube->last] = FR_KEEP_SHOULDER;
+    }
     uint32_t start = is_branch ? tube->collar_rings + (tube->has_join ? 1U : 0U) : 1U;
     start = start == 0 ? 1 : start;
     tube->rings =

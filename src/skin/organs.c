@@ -26,6 +26,15 @@ static bool stays(const FrOrganPlan *organs, uint32_t organ, const FrShapeMesh *
     return fr_random(key, PURPOSE_STAY, 0) < organs->staying;
 }
 
+// From the second level on each has the root of 0.4 of the leaves of the one before.
+static double staying_at(int lod) {
+    double part = 1.0;
+    for (int i = 2; i <= lod; i++) {
+        part *= sqrt(0.4);
+    }
+    return part;
+}
+
 static void make_shapes(FrOrganPlan *organs) {
     const FrPlan *plan = organs->plan;
     const FrPlant *plant = plan->plant;
@@ -54,7 +63,7 @@ void fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
         .slot_vertices = g_new0(uint64_t, plan->slots),
         .slot_indices = g_new0(uint64_t, plan->slots),
         .slot_foliage = g_new0(bool, plan->slots),
-        .staying = plan->detail.lod < 2 ? 1.0 : ldexp(1.0, 1 - plan->detail.lod),
+        .staying = staying_at(plan->detail.lod),
     };
     organs->enlarged = (float)fmin(1.0 / sqrt(organs->staying), 2.0);
     if (count > 0) {

@@ -2,6 +2,8 @@
 // tube begins and ends.
 #include "skin/plan.h"
 
+#include <cglm/struct.h>
+
 #include <math.h>
 
 static float clamped(double value, double low, double high) {
@@ -27,7 +29,7 @@ FrDetail fr_detail(const FrSkinParams *params) {
     return (FrDetail){
         .lod = lod,
         .bend_chord = (float)(2.0 * sin(0.5 * bend)),
-        .sag_share = (float)(0.5 * coarser * coarser),
+        .sag_share = (float)(0.15 * coarser * coarser),
         .sag_length = (float)(0.05 * side_length * coarser * coarser),
         .taper_share = (float)(0.05 * coarser * coarser),
         .side_length = (float)(side_length * coarser),
@@ -304,6 +306,11 @@ const FrSection *fr_plan_profile(const FrPlan *plan, uint32_t profile) {
     }
     const FrSection *section = &plan->sections[plan->detail.max_sides + 1 + profile];
     return section->columns != NULL ? section : NULL;
+}
+
+float fr_shoulder_part(vec3s from, vec3s tip, float radius) {
+    float length = glms_vec3_distance(from, tip);
+    return length > 0.0F ? 1.0F - fminf(2.0F * radius / length, 0.5F) : 0.5F;
 }
 
 float fr_smallest_length(vec3s at, float radius) {

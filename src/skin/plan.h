@@ -64,6 +64,12 @@ enum {
     FR_NODE_BLUNT = 1 << 1, ///< last of its axis, but bears a branch: no point
 };
 
+/// Values of FrPlan.keep.
+enum {
+    FR_KEEP_RING = 1,
+    FR_KEEP_SHOULDER = 2, ///< the last node of a tube with a ring shortly before its tip
+};
+
 typedef struct FrPlan {
     const FrPlant *plant;
     const FrContext *context;
@@ -71,7 +77,7 @@ typedef struct FrPlan {
     uint32_t *successor; ///< by axis: the one that continues it, FR_NONE
     uint32_t *before;    ///< by axis: the one it continues, FR_NONE
     uint8_t *marks;      ///< by node: FR_NODE_GONE, FR_NODE_BLUNT
-    uint8_t *keep;       ///< by node: 1 where a ring stands or a tube ends
+    uint8_t *keep;       ///< by node: FR_KEEP_RING where a ring stands or a tube ends
     uint32_t *section;   ///< by axis: index into sections
     GArray *runs;        ///< FrRun
     GArray *tubes;       ///< FrTube, run by run
@@ -109,5 +115,7 @@ vec3s fr_tube_origin(const FrPlan *plan, const FrTube *tube);
 float fr_tube_base_radius(const FrPlan *plan, const FrTube *tube);
 /// The section of a profile, or NULL if it is round.
 const FrSection *fr_plan_profile(const FrPlan *plan, uint32_t profile);
+/// How far along its last band, 0 to 1, a blunt tube keeps its thickness.
+float fr_shoulder_part(vec3s from, vec3s tip, float radius);
 /// Length below which two points of a tube count as one: far enough apart in single precision.
 float fr_smallest_length(vec3s at, float radius);

@@ -32,7 +32,7 @@ void fr_shape_triangle(FrShapeMesh *mesh, uint32_t a, uint32_t b, uint32_t c) {
 uint32_t fr_shape_segments(uint32_t wanted, uint32_t least, uint32_t most, const FrDetail *detail) {
     double count = MIN(wanted, UINT16_MAX);
     for (int i = 0; i < detail->lod; i++) {
-        count *= 0.6;
+        count *= 0.7;
     }
     return CLAMP((uint32_t)(count + 0.5), least, most);
 }

@@ -276,9 +276,7 @@ static FrStation station_at(const FrSweep *sweep, uint32_t node, float v) {
 
 // A blunt tip keeps its thickness until shortly before its end.
 static FrStation shoulder(const FrStation *from, const FrStation *tip) {
-    float length = glms_vec3_distance(from->at, tip->at);
-    float back = fminf(2.0F * tip->radius, 0.5F * length);
-    float part = length > 0.0F ? 1.0F - back / length : 0.5F;
+    float part = fr_shoulder_part(from->at, tip->at, tip->radius);
     FrStation station = *tip;
     station.at = glms_vec3_muladds(glms_vec3_sub(tip->at, from->at), part, from->at);
     station.radius = from->radius + part * (tip->radius - from->radius);
@@ -347,12 +345,16 @@ static FrCollarColumn collar_column(const FrSweep *sweep, const FrCollar *collar
                                     const FrLimb *limb, vec3s spoke) {
     const FrPlan *plan = sweep->plan;
     if (collar->is_nested) {
-        spoke = carried_any(spoke, collar->direction, collar->along);
-        float length = glms_vec3_norm(spoke);
-        vec3s normal = glms_vec3_scale(spoke, length > 0.0F ? 1.0F / length : 0.0F);
+        vec3s low = carried_any(spoke, collar->direction, collar->along);
+        float length = glms_vec3_norm(low);
+        vec3s normal = glms_vec3_scale(low, length > 0.0F ? 1.0F / length : 0.0F);
         float scale = collar->parent_radius / fmaxf(collar->radius, 1e-12F);
-        vec3s foot = glms_vec3_muladds(spoke, scale, collar->exit);
-        return (FrCollarColumn){foot, normal, foot};
+        vec3s foot = glms_vec3_muladds(low, scale, collar->exit);
+        // An elbow: where a tube along the one direction meets a tube along the other.
+        vec3s middle = glms_vec3_center(low, spoke);
+        float bend = fmaxf(0.5F + 0.5F * glms_vec3_dot(collar->direction, collar->along), 0.4F);
+        vec3s knee = glms_vec3_muladds(middle, 1.0F / bend, collar->origin);
+        return (FrCollarColumn){foot, normal, knee};
     }
     float flare = 1.0F + FR_COLLAR_FLARE * plan->detail.collar;
     FrFoot foot = fr_collar_foot(plan, collar, limb, glms_vec3_scale(spoke, flare));
@@ -506,15 +508,17 @@ static void sweep_stations(FrSweep *sweep) {
         vec3s onward = length > 0.0F ? glms_vec3_scale(step, 1.0F / length) : sweep->heading;
         float rise = (is_tip ? 0.0F : next.radius) - station.radius;
         float slope_out = length > 0.0F ? fminf(fmaxf(rise / length, -8.0F), 8.0F) : 0.0F;
+        if (!is_written) {
+            float mean = has_slope ? 0.5F * (slope + slope_out) : slope_out;
+            // A free base is cut across its first internode: flat on the ground.
+            vec3s halved = may_turn ? sweep->heading : onward;
+            FrRing ring = joint_ring(sweep, &station, halved, mean);
+            write_ring(sweep, &ring, has_band);
+            first = may_turn ? ring : first;
+        }
         if (is_written || may_turn) {
             sweep->side = carried(sweep->side, sweep->heading, onward);
             sweep->heading = onward;
-        }
-        if (!is_written) {
-            float mean = has_slope ? 0.5F * (slope + slope_out) : slope_out;
-            FrRing ring = joint_ring(sweep, &station, onward, mean);
-            write_ring(sweep, &ring, has_band);
-            first = may_turn ? ring : first;
         }
         slope = slope_out;
         has_band = has_slope = true;

@@ -56,6 +56,36 @@ static inline double check_area(const FrMesh *mesh) {
     return area;
 }
 
+/// How often a closed mesh goes around a point: 1 inside, 0 outside (sum of solid angles; Van
+/// Oosterom, Strackee 1983).
+static inline double check_winding(const FrMesh *mesh, vec3s at) {
+    double angle = 0.0;
+    for (uint32_t p = 0; p < mesh->part_count; p++) {
+        for (uint64_t i = 0; i < mesh->parts[p].index_count; i += 3) {
+            const FrVertex *corner[3];
+            double v[3][3], length[3], dot[3];
+            check_corners(mesh, &mesh->parts[p], i, corner);
+            for (int k = 0; k < 3; k++) {
+                for (int j = 0; j < 3; j++) {
+                    v[k][j] = (double)corner[k]->position[j] - (double)at.raw[j];
+                }
+                length[k] = sqrt(v[k][0] * v[k][0] + v[k][1] * v[k][1] + v[k][2] * v[k][2]);
+            }
+            for (int k = 0; k < 3; k++) {
+                const double *a = v[k], *b = v[(k + 1) % 3];
+                dot[k] = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+            }
+            double volume = v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) -
+                            v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
+                            v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+            double below = length[0] * length[1] * length[2] + dot[0] * length[2] +
+                           dot[1] * length[0] + dot[2] * length[1];
+            angle += 2.0 * atan2(volume, below);
+        }
+    }
+    return angle / (4.0 * G_PI);
+}
+
 /// Everything finite, normals of length 1 and on the side the triangle faces, no triangle without
 /// area, parts within the mesh and in exact bounds.
 static inline void check_sound(const FrMesh *mesh) {
@@ -87,8 +117,8 @@ static inline void check_sound(const FrMesh *mesh) {
 }
 
 typedef struct CheckTopology {
-    int64_t euler;  ///< vertices − edges + faces, equal positions joined
-    uint64_t open;  ///< edges that do not have one triangle each way
+    int64_t euler; ///< vertices − edges + faces, equal positions joined
+    uint64_t open; ///< edges that do not have one triangle each way
 } CheckTopology;
 
 static inline guint check_hash(gconstpointer key) {

@@ -76,8 +76,8 @@ static void test_no_twist(void) {
         vec3s along = glms_vec3_normalize(glms_vec3_sub(centre_b, centre_a));
         for (int i = 0; i < 12; i++) {
             vec3s spoke = glms_vec3_sub(check_at(&a[i]), centre_a);
-            spoke = glms_vec3_normalize(glms_vec3_sub(
-                spoke, glms_vec3_scale(along, glms_vec3_dot(spoke, along))));
+            spoke = glms_vec3_normalize(
+                glms_vec3_sub(spoke, glms_vec3_scale(along, glms_vec3_dot(spoke, along))));
             vec3s edge = glms_vec3_sub(check_at(&b[i]), check_at(&a[i]));
             vec3s around = glms_vec3_cross(along, spoke);
             g_assert_cmpfloat(fabsf(glms_vec3_dot(edge, around)), <, 0.003F);
@@ -102,15 +102,15 @@ static void test_thinning_keeps_shape(void) {
             const FrVertex *a = &mesh->vertices[r * 5];
             const FrVertex *b = r + 1 < rings ? a + 5 : &mesh->vertices[rings * 5];
             vec3s from = glms_vec3_center(check_at(&a[0]), check_at(&a[2]));
-            vec3s to = r + 1 < rings ? glms_vec3_center(check_at(&b[0]), check_at(&b[2]))
-                                     : check_at(b);
+            vec3s to =
+                r + 1 < rings ? glms_vec3_center(check_at(&b[0]), check_at(&b[2])) : check_at(b);
             vec3s step = glms_vec3_sub(to, from), at = plant->nodes.position[n];
             float part = glms_vec3_dot(glms_vec3_sub(at, from), step) / glms_vec3_norm2(step);
             part = fminf(fmaxf(part, 0.0F), 1.0F);
             vec3s on = glms_vec3_add(from, glms_vec3_scale(step, part));
             nearest = fminf(nearest, glms_vec3_distance(on, at));
         }
-        g_assert_cmpfloat(nearest, <, 0.5F * plant->nodes.radius[n] + 0.0015F);
+        g_assert_cmpfloat(nearest, <, 0.2F * plant->nodes.radius[n] + 0.0015F);
     }
     fr_mesh_free(mesh);
     fr_plant_free(plant);

@@ -1,0 +1,209 @@
+// Blades: area, arc lengths, turns, coordinates, numbers of triangles.
+#include "mesh_check.h"
+
+static FrShape plain_blade(void) {
+    return (FrShape){.kind = FR_SHAPE_BLADE,
+                     .blade = {.length = 0.1F,
+                               .width = 0.06F,
+                               .outline = FR_NONE,
+                               .along_curve = FR_NONE,
+                               .across_curve = FR_NONE,
+                               .segments_along = 6,
+                               .segments_across = 2}};
+}
+
+// Twice the area of the half outline, by the shoelace formula.
+static double polygon_area(const double (*points)[2], uint32_t count) {
+    double area = 0.0;
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        area += (points[i + 1][0] - points[i][0]) * (points[i][1] + points[i + 1][1]);
+    }
+    return area;
+}
+
+static void test_area(void) {
+    static const double ovate[][2] = {{0, 0},      {0.05, 0.25}, {0.15, 0.42}, {0.3, 0.5},
+                                      {0.5, 0.42}, {0.7, 0.25},  {0.9, 0.08},  {1, 0}};
+    static const double kite[][2] = {{0, 0}, {0.4, 0.5}, {1, 0}};
+    FrPlant *plant = fr_plant_new("blade");
+    for (uint16_t segments = 1; segments < 12; segments++) {
+        FrShape shape = plain_blade();
+        shape.blade.segments_along = segments;
+        FrMesh *mesh = check_shape(plant, &shape);
+        check_sound(mesh);
+        double ellipse = G_PI / 4.0 * 0.1 * 0.06;
+        g_assert_cmpfloat_with_epsilon(check_area(mesh), ellipse, 0.01 * ellipse);
+        fr_mesh_free(mesh);
+        for (int k = 0; k < 2; k++) {
+            const double(*points)[2] = k ? kite : ovate;
+            uint32_t count = k ? 3 : 8;
+            shape.blade.outline = fr_plant_add_profile(plant, points, count, false);
+            mesh = check_shape(plant, &shape);
+            double area = polygon_area(points, count) * 0.1 * 0.06;
+            g_assert_cmpfloat_with_epsilon(check_area(mesh), area, 0.01 * area);
+            fr_mesh_free(mesh);
+        }
+    }
+    fr_plant_free(plant);
+}
+
+// Both halves of a closed outline may differ.
+static void test_closed_outline(void) {
+    static const double lopsided[][2] = {{0, 0}, {0.3, 0.5}, {1, 0}, {0.6, -0.2}};
+    FrPlant *plant = fr_plant_new("blade");
+    FrShape shape = plain_blade();
+    shape.blade.outline = fr_plant_add_profile(plant, lopsided, 4, true);
+    FrMesh *mesh = check_shape(plant, &shape);
+    double area = (0.5 + 0.2) / 2.0 * 0.1 * 0.06;
+    g_assert_cmpfloat_with_epsilon(check_area(mesh), area, 0.01 * area);
+    // The half with positive widths is on the right: towards −x, where u is large.
+    g_assert_cmpfloat(-mesh->parts[0].min[0], >, 2.0F * mesh->parts[0].max[0]);
+    fr_mesh_free(mesh);
+    fr_plant_free(plant);
+}
+
+static const FrVertex *tip_of(const FrMesh *mesh) {
+    const FrVertex *tip = &mesh->vertices[0];
+    for (uint64_t i = 1; i < mesh->vertex_count; i++) {
+        tip = mesh->vertices[i].uv[1] < tip->uv[1] ? &mesh->vertices[i] : tip;
+    }
+    return tip;
+}
+
+// κ constant over L turns the tip by κL and puts it at the end of an arc.
+static void test_along(void) {
+    FrPlant *plant = fr_plant_new("blade");
+    for (float turn = -2.0F; turn <= 2.0F; turn += 0.5F) {
+        FrShape shape = plain_blade();
+        shape.blade.curvature_along = turn;
+        FrMesh *mesh = check_shape(plant, &shape);
+        const FrVertex *tip = tip_of(mesh);
+        g_assert_cmpfloat_with_epsilon(tip->normal[1], cosf(turn), 2e-3F);
+        g_assert_cmpfloat_with_epsilon(tip->normal[2], -sinf(turn), 2e-3F);
+        float y = turn != 0 ? 0.1F * (1 - cosf(turn)) / turn : 0.0F;
+        float z = turn != 0 ? 0.1F * sinf(turn) / turn : 0.1F;
+        g_assert_cmpfloat_with_epsilon(tip->position[1], y, 1e-5F);
+        g_assert_cmpfloat_with_epsilon(tip->position[2], z, 1e-5F);
+        fr_mesh_free(mesh);
+    }
+    // A curve only spreads the turn: all of it lies in the second half here.
+    static const double late[][2] = {{0, 0}, {0.5, 0}, {0.5001, 1}, {1, 1}};
+    FrShape shape = plain_blade();
+    shape.blade.curvature_along = 1.0F;
+    shape.blade.along_curve = fr_plant_add_profile(plant, late, 4, false);
+    FrMesh *mesh = check_shape(plant, &shape);
+    const FrVertex *tip = tip_of(mesh);
+    g_assert_cmpfloat_with_epsilon(tip->normal[1], cosf(1.0F), 1e-2F);
+    g_assert_cmpfloat_with_epsilon(tip->position[2], 0.05F + 0.05F * sinf(1.0F), 1e-3F);
+    fr_mesh_free(mesh);
+    fr_plant_free(plant);
+}
+
+// The widest row of a rectangle, measured along its surface, is as long as the blade is wide.
+static void test_across(void) {
+    static const double oblong[][2] = {{0, 0.5}, {1, 0.5}};
+    FrPlant *plant = fr_plant_new("blade");
+    for (float turn = -2.0F; turn <= 2.0F; turn += 1.0F) {
+        FrShape shape = plain_blade();
+        shape.blade.outline = fr_plant_add_profile(plant, oblong, 2, false);
+        shape.blade.curvature_across = turn;
+        shape.blade.fold = 0.3F;
+        shape.blade.segments_across = 32;
+        FrMesh *mesh = check_shape(plant, &shape);
+        float length = 0.0F;
+        for (int i = 0; i < 64; i++) {
+            length +=
+                glms_vec3_distance(check_at(&mesh->vertices[i]), check_at(&mesh->vertices[i + 1]));
+        }
+        g_assert_cmpfloat_with_epsilon(length, 0.06F, 0.0002F);
+        // Both margins have turned by fold and curvature, towards y.
+        vec3s normal = check_normal(&mesh->vertices[0]);
+        g_assert_cmpfloat_with_epsilon(normal.x, -sinf(0.3F + turn), 5e-3F);
+        fr_mesh_free(mesh);
+    }
+    fr_plant_free(plant);
+}
+
+static void test_twist(void) {
+    static const double oblong[][2] = {{0, 0.5}, {1, 0.5}};
+    FrPlant *plant = fr_plant_new("blade");
+    FrShape shape = plain_blade();
+    shape.blade.outline = fr_plant_add_profile(plant, oblong, 2, false);
+    shape.blade.twist = 1.5707963F;
+    FrMesh *mesh = check_shape(plant, &shape);
+    check_sound(mesh);
+    const FrVertex *tip = &mesh->vertices[mesh->vertex_count - 1];
+    g_assert_cmpfloat_with_epsilon(tip->position[0], 0.0F, 1e-5F);
+    g_assert_cmpfloat_with_epsilon(fabsf(tip->position[1]), 0.03F, 1e-4F);
+    fr_mesh_free(mesh);
+    fr_plant_free(plant);
+}
+
+static void test_texture(void) {
+    FrPlant *plant = fr_plant_new("blade");
+    FrShape shape = plain_blade();
+    shape.blade.petiole_length = 0.03F;
+    shape.blade.petiole_radius = 0.001F;
+    shape.blade.petiole_bend = 0.5F;
+    shape.blade.wave = 0.05F;
+    shape.blade.waves = 2.0F;
+    FrMesh *mesh = check_shape(plant, &shape);
+    check_sound(mesh);
+    g_assert_true(mesh->parts[0].is_foliage);
+    for (uint64_t i = 0; i < mesh->vertex_count; i++) {
+        const FrVertex *v = &mesh->vertices[i];
+        g_assert_true(v->uv[0] >= 0 && v->uv[0] <= 1 && v->uv[1] >= 0 && v->uv[1] <= 1);
+    }
+    g_assert_cmpfloat(tip_of(mesh)->uv[0], ==, 0.5F);
+    g_assert_cmpfloat(tip_of(mesh)->uv[1], ==, 0.0F);
+    fr_mesh_free(mesh);
+    fr_plant_free(plant);
+}
+
+static void test_frugal(void) {
+    FrPlant *plant = fr_plant_new("blade");
+    FrShape shape = plain_blade();
+    shape.blade.segments_along = 3;
+    shape.blade.segments_across = 1;
+    FrMesh *mesh = check_shape(plant, &shape);
+    g_assert_cmpuint(mesh->index_count / 3, ==, 4);
+    g_assert_cmpuint(mesh->vertex_count, ==, 6);
+    fr_mesh_free(mesh);
+    shape.blade.fold = 0.3F;
+    mesh = check_shape(plant, &shape);
+    g_assert_cmpuint(mesh->index_count / 3, ==, 8);
+    fr_mesh_free(mesh);
+    fr_plant_free(plant);
+}
+
+static void test_hostile(void) {
+    static const double spikes[][2] = {{0, 0},      {0.2, 0.5}, {0.3, 0},   {0.31, 0.4},
+                                       {0.25, 0.1}, {0.6, 0},   {0.7, 0.9}, {1.5, -3}};
+    FrPlant *plant = fr_plant_new("blade");
+    FrShape shape = plain_blade();
+    shape.blade.outline = fr_plant_add_profile(plant, spikes, 8, false);
+    shape.blade.segments_along = shape.blade.segments_across = UINT16_MAX;
+    FrMesh *mesh = check_shape(plant, &shape);
+    g_assert_cmpuint(mesh->index_count, >, 0);
+    check_sound(mesh);
+    fr_mesh_free(mesh);
+    shape.blade.length = 0.0F;
+    mesh = check_shape(plant, &shape);
+    g_assert_cmpuint(mesh->index_count, ==, 0);
+    fr_mesh_free(mesh);
+    fr_plant_free(plant);
+}
+
+int main(int argc, char **argv) {
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/skin/blade/C8: a flat blade has the area of its outline", test_area);
+    g_test_add_func("/skin/blade/a closed outline gives both halves", test_closed_outline);
+    g_test_add_func("/skin/blade/C9: curvature along turns the tip by curvature times length",
+                    test_along);
+    g_test_add_func("/skin/blade/C9: curvature across keeps arc length", test_across);
+    g_test_add_func("/skin/blade/twist turns the tip about the midrib", test_twist);
+    g_test_add_func("/skin/blade/C12: the picture's tip is the blade's tip", test_texture);
+    g_test_add_func("/skin/blade/three segments make four triangles, eight if folded", test_frugal);
+    g_test_add_func("/skin/blade/wild outlines and numbers give sound triangles", test_hostile);
+    return g_test_run();
+}
