@@ -285,7 +285,17 @@ static void begin_level(FrBuild *build) {
     }
 }
 
-// A lower bound of instances from what is constant, so that absurd plants are refused at once.
+static uint64_t least_count(const FrNumber *number) {
+    double least = 0; // a function may give anything
+    if (number->is_constant) {
+        least = number->constant;
+    } else if (number->function == NULL) {
+        least = fmin(number->from, number->to) - fabs(number->variance);
+    }
+    return (uint64_t)fmax(0, floor(least + 0.5));
+}
+
+// A lower bound of instances from the numbers' ranges, so that absurd plants are refused at once.
 static FrStatus check_least(const FrBuild *build) {
     const FrExpansion *expansion = &build->expansion;
     const FrPgraph *graph = expansion->graph;
@@ -302,9 +312,7 @@ static FrStatus check_least(const FrBuild *build) {
             const FrTreeParams *tree = prepared->params;
             number = tree->mode == FR_BRANCHES_BY_NUMBER ? &tree->number : NULL;
         }
-        if (number != NULL && number->is_constant) {
-            multiplicity[c] = (uint64_t)floor(number->constant + 0.5);
-        }
+        multiplicity[c] = number != NULL ? least_count(number) : 0;
     }
     uint32_t culprit;
     uint64_t least =

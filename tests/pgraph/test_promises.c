@@ -128,6 +128,7 @@ static void too_many(void) {
     }
     assert_refused(text->str, "limit-instances", FR_ERR_LIMIT); // 10^20
     g_string_free(text, TRUE);
+    assert_refused("tree A number=900..1000 ~ 50;depth=6\nA = A", "limit-instances", FR_ERR_LIMIT);
     assert_refused("tree A number=1000000;depth=4000\nA = A", "limit-instances", FR_ERR_LIMIT);
     assert_refused("phiball A number== 1000000\nphiball B number== 1000000 + i\nleaf L\n"
                    "A - B\nB - L",
