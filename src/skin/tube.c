@@ -79,21 +79,21 @@ static void write_round(const FrSweep *sweep, const FrRing *ring) {
                      sweep->bark.u, ring->v, sweep->up);
     set_coefficients(by_x, ring->across, glms_vec3_scale(ring->x, scale), 0, 0, sweep->up);
     set_coefficients(by_y, ring->upwards, glms_vec3_scale(ring->y, scale), 0, 0, sweep->up);
-    float around = sweep->bark.around;
+    const float by_u[8] = {0, 0, 0, 0, 0, 0, sweep->bark.around, 0};
     const FrColumn *column = sweep->section->columns;
-    float *out = (float *)sweep->vertex;
+    float *restrict out = (float *)sweep->vertex;
     for (uint32_t i = 0; i < sweep->section->count; i++, column++, out += 8) {
+        float x = column->x, y = column->y, u = column->u;
         for (int k = 0; k < 8; k++) {
-            out[k] = base[k] + column->x * by_x[k] + column->y * by_y[k];
+            out[k] = base[k] + x * by_x[k] + y * by_y[k] + u * by_u[k];
         }
-        out[6] += around * column->u;
     }
 }
 
 static vec3s profile_normal(const FrRing *ring, float x, float y) {
     vec3s normal = glms_vec3_scale(ring->tangent, -ring->slope);
     normal = glms_vec3_muladds(ring->x, x, normal);
-    normal = glms_vec3_muladds(ring->y, y / fmaxf(ring->flatness, 1e-3F), normal);
+    normal = glms_vec3_muladds(ring->y, y / MAX(ring->flatness, 1e-3F), normal);
     float length = glms_vec3_norm(normal);
     return length > 0.0F ? glms_vec3_scale(normal, 1.0F / length) : ring->x;
 }
@@ -114,7 +114,7 @@ static void write_profile(const FrSweep *sweep, const FrRing *ring) {
 static void write_band(FrSweep *sweep) {
     uint32_t columns = sweep->section->count;
     uint32_t b = sweep->count - columns, a = b - columns;
-    uint32_t *index = sweep->index;
+    uint32_t *restrict index = sweep->index;
     for (uint32_t i = 0; i + 1 < columns; i++, index += 6) {
         index[0] = a + i;
         index[1] = a + i + 1;
@@ -182,7 +182,7 @@ static void write_apex(FrSweep *sweep, const FrStation *tip, float slope) {
         put(out->position, tip->at, sweep->up);
         float x = column[0].normal_x + column[1].normal_x;
         float y = column[0].normal_y + column[1].normal_y;
-        float length = fmaxf(sqrtf(x * x + y * y), 1e-6F);
+        float length = MAX(sqrtf(x * x + y * y), 1e-6F);
         vec3s normal = profile_normal(&ring, x / length, y / length);
         put(out->normal, normal, sweep->up);
         out->uv[0] = sweep->bark.u + sweep->bark.around * 0.5F * (column[0].u + column[1].u);
@@ -244,14 +244,14 @@ static FrRing joint_ring(FrSweep *sweep, const FrStation *station, vec3s onward,
     ring.y = glms_vec3_cross(tangent, ring.x);
     sweep->side = carried(ring.x, tangent, onward);
     float floor_radius = fr_smallest_length(station->at, sweep->run->radius);
-    float radius = fmaxf(station->radius, floor_radius);
+    float radius = MAX(station->radius, floor_radius);
     ring.across = glms_vec3_scale(ring.x, radius);
-    ring.upwards = glms_vec3_scale(ring.y, fmaxf(radius * station->flatness, floor_radius));
+    ring.upwards = glms_vec3_scale(ring.y, MAX(radius * station->flatness, floor_radius));
     vec3s bend = glms_vec3_sub(onward, sweep->heading);
     float turn = glms_vec3_norm(bend);
     if (turn > 0.02F && sum > 0.02F) {
         bend = glms_vec3_scale(bend, 1.0F / turn);
-        float extra = fminf(2.0F / sum, MITRE_MOST) - 1.0F;
+        float extra = MIN(2.0F / sum, MITRE_MOST) - 1.0F;
         float along_x = glms_vec3_dot(ring.across, bend),
               along_y = glms_vec3_dot(ring.upwards, bend);
         ring.across = glms_vec3_muladds(bend, extra * along_x, ring.across);
@@ -348,21 +348,21 @@ static FrCollarColumn collar_column(const FrSweep *sweep, const FrCollar *collar
         vec3s low = carried_any(spoke, collar->direction, collar->along);
         float length = glms_vec3_norm(low);
         vec3s normal = glms_vec3_scale(low, length > 0.0F ? 1.0F / length : 0.0F);
-        float scale = collar->parent_radius / fmaxf(collar->radius, 1e-12F);
+        float scale = collar->parent_radius / MAX(collar->radius, 1e-12F);
         vec3s foot = glms_vec3_muladds(low, scale, collar->exit);
         // An elbow: where a tube along the one direction meets a tube along the other.
         vec3s middle = glms_vec3_center(low, spoke);
-        float bend = fmaxf(0.5F + 0.5F * glms_vec3_dot(collar->direction, collar->along), 0.4F);
+        float bend = MAX(0.5F + 0.5F * glms_vec3_dot(collar->direction, collar->along), 0.4F);
         vec3s knee = glms_vec3_muladds(middle, 1.0F / bend, collar->origin);
         return (FrCollarColumn){foot, normal, knee};
     }
     float flare = 1.0F + FR_COLLAR_FLARE * plan->detail.collar;
-    FrFoot foot = fr_collar_foot(plan, collar, limb, glms_vec3_scale(spoke, flare));
-    FrFoot plain = fr_collar_foot(plan, collar, limb, spoke);
-    vec3s knee = glms_vec3_add(collar->origin, spoke);
-    float up = fminf(plain.distance, 0.95F * collar->join);
-    knee = glms_vec3_muladds(collar->direction, up, knee);
-    return (FrCollarColumn){foot.position, foot.normal, knee};
+    FrCollarColumn column;
+    fr_collar_foot(plan, collar, limb, glms_vec3_scale(spoke, flare), &column.foot,
+                   &column.foot_normal);
+    float up = MIN(fr_collar_distance(collar, spoke), 0.95F * collar->join);
+    column.knee = glms_vec3_muladds(collar->direction, up, glms_vec3_add(collar->origin, spoke));
+    return column;
 }
 
 // The rings of a collar lead from the parent's surface along a quadratic Bézier curve per column,
@@ -374,9 +374,10 @@ static void write_collar(FrSweep *sweep, const FrCollar *collar, const FrRing *j
         fr_limb_find(plan, sweep->tube, collar, &limb);
     }
     vec3s y = glms_vec3_cross(collar->direction, sweep->side);
-    float radius = fmaxf(collar->radius, fr_smallest_length(collar->exit, sweep->run->radius));
+    float least = fr_smallest_length(collar->exit, sweep->run->radius);
+    float radius = MAX(collar->radius, least);
     float flat = plan->plant->nodes.flatness[sweep->tube->first];
-    float per_metre = sweep->bark.rate / fmaxf(collar->radius, sweep->bark.thinnest);
+    float per_metre = sweep->bark.rate / MAX(collar->radius, sweep->bark.thinnest);
     uint32_t columns = sweep->section->count;
     for (uint32_t i = 0; i < columns; i++) {
         const FrColumn *column = &sweep->section->columns[i];
@@ -432,11 +433,19 @@ static bool start_branch(FrSweep *sweep, FrStation *station) {
         .v = sweep->bark.v,
     };
     if (!collar.has_join) {
-        FrRing none = {.v = v_at(sweep, collar.exit_distance)};
         station->at = collar.exit;
         station->radius = collar.radius;
-        station->v = none.v;
-        write_collar(sweep, &collar, &none);
+        station->v = v_at(sweep, collar.exit_distance);
+        FrRing rim = {
+            .at = collar.exit,
+            .tangent = collar.direction,
+            .x = sweep->side,
+            .y = glms_vec3_cross(collar.direction, sweep->side),
+            .flatness = station->flatness,
+            .v = station->v,
+        };
+        write_collar(sweep, &collar, &rim);
+        sweep->ring = rim; // an apex may follow at once, and turns its normals by it
         return false;
     }
     fr_tube_at(plan, sweep->tube, collar.join, &station->at, &station->radius);
@@ -507,7 +516,7 @@ static void sweep_stations(FrSweep *sweep) {
         float length = glms_vec3_norm(step);
         vec3s onward = length > 0.0F ? glms_vec3_scale(step, 1.0F / length) : sweep->heading;
         float rise = (is_tip ? 0.0F : next.radius) - station.radius;
-        float slope_out = length > 0.0F ? fminf(fmaxf(rise / length, -8.0F), 8.0F) : 0.0F;
+        float slope_out = length > 0.0F ? MIN(MAX(rise / length, -8.0F), 8.0F) : 0.0F;
         if (!is_written) {
             float mean = has_slope ? 0.5F * (slope + slope_out) : slope_out;
             // A free base is cut across its first internode: flat on the ground.
@@ -544,7 +553,7 @@ static void write_point_set(FrSweep *sweep, uint32_t node, bool has_band) {
     FrStation station = station_at(sweep, node, sweep->v);
     versors frame = sweep->plan->plant->nodes.frame[node];
     float least = fr_smallest_length(station.at, sweep->run->radius);
-    float radius = fmaxf(station.radius, least);
+    float radius = MAX(station.radius, least);
     FrRing ring = {
         .at = station.at,
         .tangent = fr_frame_heading(frame),
@@ -553,11 +562,11 @@ static void write_point_set(FrSweep *sweep, uint32_t node, bool has_band) {
         .flatness = station.flatness,
     };
     ring.across = glms_vec3_scale(ring.x, radius);
-    ring.upwards = glms_vec3_scale(ring.y, fmaxf(radius * station.flatness, least));
+    ring.upwards = glms_vec3_scale(ring.y, MAX(radius * station.flatness, least));
     if (has_band) {
         float length = glms_vec3_distance(station.at, sweep->ring.at);
         float before = glms_vec3_norm(sweep->ring.across);
-        ring.slope = fminf(fmaxf((radius - before) / fmaxf(length, least), -8.0F), 8.0F);
+        ring.slope = MIN(MAX((radius - before) / MAX(length, least), -8.0F), 8.0F);
         sweep->v -= fr_bark_along(&sweep->bark, length, before, radius);
     }
     ring.v = sweep->v;
