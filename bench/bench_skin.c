@@ -55,7 +55,7 @@ static void plain_store(void *data) {
 
 static void bench_tubes(int threads) {
     Skinning skinning = {.plant = stems(), .params = fr_skin_default()};
-    skinning.params.bend = 0.5; // a ring at every node
+    skinning.params.bend = 0.01; // a ring at every node
     skinning.context = fr_context_default();
     skinning.context.pool = fr_pool_new(threads);
     double seconds = bench_shortest(4, skin, &skinning);

@@ -21,8 +21,7 @@ typedef struct FrBark {
 static inline FrBark fr_bark_for(const FrPlan *plan, uint32_t axis, uint32_t slot, float radius) {
     const float *tile = plan->tiles[slot];
     float around = floorf((float)(2.0 * G_PI) * radius / tile[0] + 0.5F);
-    FrBark bark = {.around = around >= 1.0F ? around : 1.0F,
-                   .thinnest = fmaxf(0.2F * radius, 1e-6F)};
+    FrBark bark = {.around = around >= 1.0F ? around : 1.0F, .thinnest = MAX(0.2F * radius, 1e-6F)};
     bark.rate = bark.around * tile[0] / ((float)(2.0 * G_PI) * tile[1]);
     if (plan->plant->axes.bearer[axis] != FR_NONE) {
         // Branches begin anywhere in the picture, each where its path says.
@@ -35,7 +34,7 @@ static inline FrBark fr_bark_for(const FrPlan *plan, uint32_t axis, uint32_t slo
 
 /// Tiles along a stretch whose radius goes from a to b: ∫ rate / r ds by Simpson's rule.
 static inline float fr_bark_along(const FrBark *bark, float length, float a, float b) {
-    a = fmaxf(a, bark->thinnest);
-    b = fmaxf(b, bark->thinnest);
+    a = MAX(a, bark->thinnest);
+    b = MAX(b, bark->thinnest);
     return bark->rate * length * (1.0F / a + 8.0F / (a + b) + 1.0F / b) / 6.0F;
 }

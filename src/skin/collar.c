@@ -16,7 +16,7 @@
 #define STEEPEST 0.17F
 // No column meets the parent further around than this sine.
 #define AROUND_MOST 0.99F
-enum { WALK_MOST = 256 };
+enum { WALK_MOST = 128 };
 
 void fr_tube_at(const FrPlan *plan, const FrTube *tube, float distance, vec3s *at, float *radius) {
     const FrNodes *nodes = &plan->plant->nodes;
@@ -25,7 +25,7 @@ void fr_tube_at(const FrPlan *plan, const FrTube *tube, float distance, vec3s *a
     for (uint32_t node = tube->first;; node = fr_plan_next(plan, node)) {
         float length = nodes->length[node];
         if (distance < length || node == tube->last) {
-            float part = length > 0.0F ? fminf(distance / length, 1.0F) : 0.0F;
+            float part = length > 0.0F ? MIN(distance / length, 1.0F) : 0.0F;
             vec3s step = glms_vec3_sub(nodes->position[node], from);
             *at = glms_vec3_muladds(step, part, from);
             *radius = base + part * (nodes->radius[node] - base);
@@ -46,7 +46,7 @@ static float length_up_to(const FrPlan *plan, const FrTube *tube, float enough) 
             break;
         }
     }
-    return fminf(length, enough);
+    return MIN(length, enough);
 }
 
 static uint32_t node_before(const FrPlan *plan, uint32_t node) {
@@ -70,7 +70,7 @@ static float reach_towards(const FrPlant *plant, const FrSection *section, uint3
     }
     versors frame = plant->nodes.frame[node];
     float x = glms_vec3_dot(direction, fr_frame_left(frame));
-    float y = glms_vec3_dot(direction, fr_frame_up(frame)) / fmaxf(flatness, 1e-3F);
+    float y = glms_vec3_dot(direction, fr_frame_up(frame)) / MAX(flatness, 1e-3F);
     float stretch = sqrtf(x * x + y * y);
     return stretch > 0.0F ? fr_section_reach(section, x, y) / stretch : 1.0F;
 }
@@ -94,7 +94,7 @@ static FrInternode internode_at(const FrPlan *plan, uint32_t node, vec3s origin)
     float base = before == FR_NONE ? plant->axes.base_radius[plant->nodes.axis[node]]
                                    : plant->nodes.radius[before];
     float length = plant->nodes.length[node];
-    float part = length > 0.0F ? fminf(fmaxf(1.0F + beyond / length, 0.0F), 1.0F) : 1.0F;
+    float part = length > 0.0F ? MIN(MAX(1.0F + beyond / length, 0.0F), 1.0F) : 1.0F;
     return (FrInternode){
         .axis_point = glms_vec3_muladds(along, beyond, tip),
         .along = along,
@@ -144,7 +144,8 @@ static void find_exit(const FrPlan *plan, uint32_t node, const FrInternode *inte
 
 // The cosine between branch and surface normal, never quite tangential.
 static float lift(const FrCollar *collar) {
-    return fmaxf(glms_vec3_dot(collar->direction, collar->outward), STEEPEST);
+    float cosine = glms_vec3_dot(collar->direction, collar->outward);
+    return MAX(cosine, STEEPEST);
 }
 
 // True if the parent has `forth` metres of surface beyond the tip of `node` and `back` before it.
@@ -172,21 +173,22 @@ static bool is_point(const FrPlan *plan, uint32_t node) {
 // A branch at its parent's end goes on from a ring within that end, as the arm of a fork does.
 static void nest(const FrPlan *plan, uint32_t node, const FrInternode *internode, float length,
                  bool is_fine, FrCollar *collar) {
-    float radius = fminf(0.985F * collar->parent_radius, 1.5F * collar->radius);
+    float radius = MIN(0.985F * collar->parent_radius, 1.5F * collar->radius);
     vec3s centre =
-        glms_vec3_muladds(internode->along, -fmaxf(internode->beyond, 0.0F), internode->axis_point);
+        glms_vec3_muladds(internode->along, -MAX(internode->beyond, 0.0F), internode->axis_point);
     vec3s facing = internode->along;
     float depth = is_point(plan, node) ? 2.2F * radius : 0.2F * radius;
     float forth = glms_vec3_dot(collar->direction, facing);
     if (forth < -0.5F) {
         // It turns back too far for that: a ring across itself, far enough down the parent.
-        radius = fminf(collar->radius, 0.8F * collar->parent_radius);
+        radius = MIN(collar->radius, 0.8F * collar->parent_radius);
         centre = glms_vec3_muladds(facing, -1.2F * radius * sqrtf(1.0F - forth * forth), centre);
         facing = collar->direction;
         depth = 0.0F;
     }
-    radius = fmaxf(radius, fr_smallest_length(centre, collar->radius));
-    float join = fminf(0.7F * (radius + collar->radius), 0.4F * length);
+    float least = fr_smallest_length(centre, collar->radius);
+    radius = MAX(radius, least);
+    float join = MIN(0.7F * (radius + collar->radius), 0.4F * length);
     collar->is_nested = true;
     collar->exit = glms_vec3_muladds(facing, -depth, centre);
     collar->along = facing;
@@ -220,9 +222,9 @@ FrCollar fr_collar_find(const FrPlan *plan, const FrTube *tube, uint32_t sides) 
         }
     }
     float up = lift(&collar), radius = collar.radius;
-    float slant = sqrtf(fmaxf(1.0F - up * up, 0.0F)) / up;
-    float last_exit = fmaxf(collar.exit_distance + radius * slant, 0.0F);
-    float blend = (0.35F + 0.65F * fminf(plan->detail.collar, 2.0F)) * radius;
+    float slant = sqrtf(MAX(1.0F - up * up, 0.0F)) / up;
+    float last_exit = MAX(collar.exit_distance + radius * slant, 0.0F);
+    float blend = (0.35F + 0.65F * MIN(plan->detail.collar, 2.0F)) * radius;
     float length = length_up_to(plan, tube, 2.0F * (last_exit + blend + radius));
 
     float shift = glms_vec3_dot(glms_vec3_sub(collar.exit, internode.axis_point), internode.along);
@@ -239,7 +241,7 @@ FrCollar fr_collar_find(const FrPlan *plan, const FrTube *tube, uint32_t sides) 
     collar.rings = collar.has_join && sides > 7 && plan->detail.lod == 0 ? 3 : 1;
     collar.join = last_exit + blend;
     collar.clear = collar.has_join ? collar.join + 0.5F * radius
-                                   : fminf(last_exit + 0.5F * radius, 0.6F * length);
+                                   : MIN(last_exit + 0.5F * radius, 0.6F * length);
     return collar;
 }
 
@@ -318,12 +320,15 @@ static void measure_limb(FrLimb *limb, vec3s exit_axis) {
         rings[i].tangent = i == 0 ? unit : glms_vec3_add(rings[i].tangent, unit);
         rings[i + 1].tangent = unit;
         float along = glms_vec3_dot(glms_vec3_sub(exit_axis, rings[i].at), unit);
-        along = fminf(fmaxf(along, 0.0F), length);
+        along = MIN(MAX(along, 0.0F), length);
         float apart = glms_vec3_distance2(glms_vec3_muladds(unit, along, rings[i].at), exit_axis);
         if (apart < nearest) {
             nearest = apart;
             limb->exit = rings[i].s + along;
         }
+    }
+    for (uint32_t i = 0; i < limb->count; i++) {
+        rings[i].tangent = glms_vec3_normalize(rings[i].tangent);
     }
 }
 
@@ -358,40 +363,56 @@ static struct FrLimbRing limb_at(const FrLimb *limb, float s) {
         return rings[0];
     }
     float length = rings[i + 1].s - rings[i].s;
-    float part = length > 0.0F ? fminf(fmaxf((s - rings[i].s) / length, 0.0F), 1.0F) : 0.0F;
+    float part = length > 0.0F ? MIN(MAX((s - rings[i].s) / length, 0.0F), 1.0F) : 0.0F;
     struct FrLimbRing between = {.radius = rings[i].radius +
                                            part * (rings[i + 1].radius - rings[i].radius)};
     vec3s step = glms_vec3_sub(rings[i + 1].at, rings[i].at);
     between.at = glms_vec3_muladds(step, part, rings[i].at);
-    vec3s a = glms_vec3_normalize(rings[i].tangent), b = glms_vec3_normalize(rings[i + 1].tangent);
+    vec3s a = rings[i].tangent, b = rings[i + 1].tangent;
     between.tangent = glms_vec3_normalize(glms_vec3_muladds(glms_vec3_sub(b, a), part, a));
     return between;
 }
 
-FrFoot fr_collar_foot(const FrPlan *plan, const FrCollar *collar, const FrLimb *limb, vec3s spoke) {
+/// Where a column meets the parent, in the parent's coordinates.
+typedef struct FrFootprint {
+    float along;        ///< m from the exit
+    float sine, cosine; ///< of the angle around the parent
+    float distance;     ///< m along the branch
+} FrFootprint;
+
+static FrFootprint footprint(const FrCollar *collar, vec3s spoke) {
     vec3s sideways = glms_vec3_cross(collar->along, collar->outward);
     float up = lift(collar), forth = glms_vec3_dot(collar->direction, collar->along);
     float side = glms_vec3_dot(collar->direction, sideways);
     float slip = -glms_vec3_dot(spoke, collar->outward) / up;
-    float x = glms_vec3_dot(spoke, collar->along) + slip * forth;
     float sine = (glms_vec3_dot(spoke, sideways) + slip * side) / collar->parent_radius;
-    float angle = asinf(fminf(fmaxf(sine, -AROUND_MOST), AROUND_MOST));
-    float drop = collar->parent_radius * (1.0F - cosf(angle)) / up;
-    x -= drop * forth;
+    sine = CLAMP(sine, -AROUND_MOST, AROUND_MOST);
+    float cosine = sqrtf(1.0F - sine * sine);
+    float drop = collar->parent_radius * (1.0F - cosine) / up;
+    return (FrFootprint){
+        .along = glms_vec3_dot(spoke, collar->along) + (slip - drop) * forth,
+        .sine = sine,
+        .cosine = cosine,
+        .distance = collar->exit_distance + slip - drop,
+    };
+}
 
-    struct FrLimbRing ring = limb_at(limb, limb->exit + x);
+float fr_collar_distance(const FrCollar *collar, vec3s spoke) {
+    return footprint(collar, spoke).distance;
+}
+
+void fr_collar_foot(const FrPlan *plan, const FrCollar *collar, const FrLimb *limb, vec3s spoke,
+                    vec3s *position, vec3s *normal) {
+    FrFootprint print = footprint(collar, spoke);
+    struct FrLimbRing ring = limb_at(limb, limb->exit + print.along);
     vec3s out = across(collar->outward, ring.tangent);
     float length = glms_vec3_norm(out);
     out = length > 1e-3F ? glms_vec3_scale(out, 1.0F / length) : collar->outward;
     vec3s around = glms_vec3_cross(ring.tangent, out);
-    vec3s normal = glms_vec3_scale(out, cosf(angle));
-    normal = glms_vec3_muladds(around, sinf(angle), normal);
+    *normal = glms_vec3_muladds(around, print.sine, glms_vec3_scale(out, print.cosine));
     float reach =
-        ring.radius * limb->sink * reach_towards(plan->plant, limb->section, limb->node, normal);
-    reach = fmaxf(reach, fr_smallest_length(ring.at, collar->radius));
-    return (FrFoot){
-        .position = glms_vec3_muladds(normal, reach, ring.at),
-        .normal = normal,
-        .distance = collar->exit_distance + slip - drop,
-    };
+        ring.radius * limb->sink * reach_towards(plan->plant, limb->section, limb->node, *normal);
+    float least = fr_smallest_length(ring.at, collar->radius);
+    reach = MAX(reach, least);
+    *position = glms_vec3_muladds(*normal, reach, ring.at);
 }

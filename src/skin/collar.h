@@ -49,10 +49,7 @@ typedef struct FrLimb {
 void fr_limb_find(const FrPlan *plan, const FrTube *tube, const FrCollar *collar, FrLimb *limb);
 
 /// Where the column of a branch that is `spoke` away from its axis meets the parent's surface.
-typedef struct FrFoot {
-    vec3s position;
-    vec3s normal;
-    float distance; ///< m along the branch
-} FrFoot;
-
-FrFoot fr_collar_foot(const FrPlan *plan, const FrCollar *collar, const FrLimb *limb, vec3s spoke);
+void fr_collar_foot(const FrPlan *plan, const FrCollar *collar, const FrLimb *limb, vec3s spoke,
+                    vec3s *position, vec3s *normal);
+/// How far along the branch that is, were the parent a cylinder.
+float fr_collar_distance(const FrCollar *collar, vec3s spoke);

@@ -31,10 +31,10 @@ static bool extend(const FrDetail *detail, FrBand *band, float length, vec3s hea
         next.heading = heading;
     }
     next.length += length;
-    next.chord = fmaxf(band->chord, glms_vec3_distance(next.heading, heading));
+    next.chord = MAX(band->chord, glms_vec3_distance(next.heading, heading));
     float slope = next.length > 0.0F ? (radius - band->radius) / next.length : 0.0F;
     float sag = 0.25F * next.length * next.chord;
-    float thick = fmaxf(radius, band->radius);
+    float thick = MAX(radius, band->radius);
     if (band->length > 0.0F &&
         (next.chord > detail->bend_chord || sag > detail->sag_share * thick + detail->sag_length ||
          slope < band->low || slope > band->high)) {
@@ -42,8 +42,8 @@ static bool extend(const FrDetail *detail, FrBand *band, float length, vec3s hea
     }
     if (next.length > 0.0F) {
         float slack = detail->taper_share * thick / next.length;
-        next.low = fmaxf(band->low, slope - slack);
-        next.high = fminf(band->high, slope + slack);
+        next.low = MAX(band->low, slope - slack);
+        next.high = MIN(band->high, slope + slack);
     }
     *band = next;
     return true;
@@ -170,10 +170,11 @@ static void count_triangles(const FrPlan *plan, FrTube *tube) {
 static void survey(const FrPlan *plan, const FrTube *tube, FrRun *run) {
     const FrNodes *nodes = &plan->plant->nodes;
     if (!tube->is_point_sets) {
-        run->radius = fmaxf(run->radius, fr_tube_base_radius(plan, tube));
+        float base = fr_tube_base_radius(plan, tube);
+        run->radius = MAX(run->radius, base);
     }
     for (uint32_t node = tube->first;; node = fr_plan_next(plan, node)) {
-        run->radius = fmaxf(run->radius, nodes->radius[node]);
+        run->radius = MAX(run->radius, nodes->radius[node]);
         run->follows_frames = run->follows_frames || nodes->flatness[node] != 1.0F;
         if (node == tube->last) {
             return;

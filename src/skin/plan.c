@@ -312,8 +312,3 @@ float fr_shoulder_part(vec3s from, vec3s tip, float radius) {
     float length = glms_vec3_distance(from, tip);
     return length > 0.0F ? 1.0F - fminf(2.0F * radius / length, 0.5F) : 0.5F;
 }
-
-float fr_smallest_length(vec3s at, float radius) {
-    float reach = fmaxf(fmaxf(fabsf(at.x), fabsf(at.y)), fabsf(at.z));
-    return fmaxf(1e-3F * radius, 4e-6F * fmaxf(1.0F, reach));
-}

@@ -9,6 +9,8 @@
 
 #include "skin/section.h"
 
+#include <math.h>
+
 /// Settings as the algorithms want them, with the level of detail already applied.
 typedef struct FrDetail {
     int lod;
@@ -118,4 +120,8 @@ const FrSection *fr_plan_profile(const FrPlan *plan, uint32_t profile);
 /// How far along its last band, 0 to 1, a blunt tube keeps its thickness.
 float fr_shoulder_part(vec3s from, vec3s tip, float radius);
 /// Length below which two points of a tube count as one: far enough apart in single precision.
-float fr_smallest_length(vec3s at, float radius);
+static inline float fr_smallest_length(vec3s at, float radius) {
+    float x = fabsf(at.x), y = fabsf(at.y), z = fabsf(at.z);
+    float reach = MAX(MAX(x, y), MAX(z, 1.0F));
+    return MAX(1e-3F * radius, 4e-6F * reach);
+}

@@ -15,12 +15,19 @@ static inline FrBox fr_box_empty(void) {
 }
 
 static inline void fr_box_widen(FrBox *box, const FrVertex *vertices, uint64_t count) {
+    // Four at once, the fourth for nothing: compilers make single instructions of that.
+    float low[4] = {INFINITY, INFINITY, INFINITY, INFINITY};
+    float high[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
     for (uint64_t i = 0; i < count; i++) {
-        for (int k = 0; k < 3; k++) {
-            float at = vertices[i].position[k];
-            box->min[k] = at < box->min[k] ? at : box->min[k];
-            box->max[k] = at > box->max[k] ? at : box->max[k];
+        const float *at = (const float *)&vertices[i];
+        for (int k = 0; k < 4; k++) {
+            low[k] = at[k] < low[k] ? at[k] : low[k];
+            high[k] = at[k] > high[k] ? at[k] : high[k];
         }
+    }
+    for (int k = 0; k < 3; k++) {
+        box->min[k] = low[k] < box->min[k] ? low[k] : box->min[k];
+        box->max[k] = high[k] > box->max[k] ? high[k] : box->max[k];
     }
 }
 
