@@ -94,7 +94,7 @@ vec3s fr_ground_colour(const FrGround *ground, float x, float y) {
     float fine = tile_at(ground, x, y, fine_layer, &sx, &sy);
     float middle = tile_at(ground, x, y, middle_layer, &sx, &sy);
     float coarse = tile_at(ground, x, y, coarse_layer, &sx, &sy);
-    float light = grain + 0.5f * fine + 0.4f * middle + 0.3f * coarse;
+    float light = grain + 0.8f * fine + 0.5f * middle + 0.3f * coarse;
     vec3s colour = glms_vec3_scale(ground->colour, expf(ground->variation * light));
     // Patches drift between dry, reddish and fresh, greenish ground.
     float dry = ground->variation * (0.3f * fine + 0.8f * middle + 0.5f * coarse);

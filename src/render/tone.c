@@ -12,11 +12,11 @@
 // colour than the neutral curve has.
 #define LOWEST_STOP (-12.47393f)
 #define HIGHEST_STOP 4.026069f
-#define LOOK_POWER 1.22f
+#define LOOK_POWER 1.3f
 #define LOOK_SATURATION 1.27f
 // What the average of the picture is exposed to, and how far the picture rather than the light that
 // falls into it decides.
-#define KEY 0.27f
+#define KEY 0.29f
 #define PICTURE_PART 0.6f
 
 static float film_curve(float x) {
