@@ -137,7 +137,9 @@ static FrStatus make_parts(FrSkinJob *job, const FrSlotSum *wood) {
     }
     job->mesh = fr_mesh_new(vertex, index, count);
     if (job->mesh != NULL) {
-        memcpy(job->mesh->parts, parts, count * sizeof *parts);
+        for (uint32_t i = 0; i < count; i++) {
+            job->mesh->parts[i] = parts[i];
+        }
     } else {
         fr_diags_add(job->plan.context->diags, FR_ERROR, "out-of-memory", (FrSpan){0},
                      "There is no memory for a mesh of %" G_GUINT64_FORMAT " triangles", index / 3);
