@@ -107,13 +107,22 @@ static const char *group_word(const FrPlant *plant, uint32_t organ) {
     return shape->kind == FR_SHAPE_BLADE ? "leaf" : "organ";
 }
 
-static bool is_seen(const FrPlant *plant, uint32_t organ) {
-    uint32_t node = plant->organs.node[organ];
-    uint32_t flags = plant->organs.flags[organ];
-    if (node != FR_NONE) {
-        flags |= plant->nodes.flags[node] & FR_SHED;
+/// Which nodes are shed or borne by something shed: skin leaves those out, and so must we.
+static bool *gone_nodes(const FrPlant *plant) {
+    const FrNodes *nodes = &plant->nodes;
+    bool *gone = g_new(bool, nodes->count);
+    for (uint32_t i = 0; i < nodes->count; i++) {
+        uint32_t parent = nodes->parent[i];
+        gone[i] = ((nodes->flags[i] | plant->axes.flags[nodes->axis[i]]) & FR_SHED) != 0 ||
+                  (parent != FR_NONE && gone[parent]);
     }
-    return (flags & (FR_SHED | FR_HIDDEN)) == 0;
+    return gone;
+}
+
+static bool is_seen(const FrPlant *plant, const bool *gone, uint32_t organ) {
+    uint32_t node = plant->organs.node[organ];
+    return (plant->organs.flags[organ] & (FR_SHED | FR_HIDDEN)) == 0 &&
+           (node == FR_NONE || !gone[node]);
 }
 
 /// Sorts a plant's organs into groups, in the order in which each first occurs.
@@ -121,8 +130,9 @@ static GArray *group_organs(const FrPlant *plant) {
     GArray *groups = g_array_new(FALSE, FALSE, sizeof(FrOrganGroup));
     g_array_set_clear_func(groups, group_clear);
     GHashTable *index = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
+    bool *gone = gone_nodes(plant);
     for (uint32_t o = 0; o < plant->organs.count; o++) {
-        if (!is_seen(plant, o)) {
+        if (!is_seen(plant, gone, o)) {
             continue;
         }
         uint64_t key = (uint64_t)plant->organs.shape[o] << 32 | plant->organs.material[o];
@@ -142,6 +152,7 @@ static GArray *group_organs(const FrPlant *plant) {
         g_array_append_val(g_array_index(groups, FrOrganGroup, GPOINTER_TO_UINT(at)).organs, o);
     }
     g_hash_table_unref(index);
+    g_free(gone);
     return groups;
 }
 
