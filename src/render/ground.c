@@ -90,10 +90,13 @@ vec3s fr_ground_colour(const FrGround *ground, float x, float y) {
     }
     float sx;
     float sy;
-    float grain = tile_at(ground, x, y, grain_layer, &sx, &sy);
-    float fine = tile_at(ground, x, y, fine_layer, &sx, &sy);
     float middle = tile_at(ground, x, y, middle_layer, &sx, &sy);
     float coarse = tile_at(ground, x, y, coarse_layer, &sx, &sy);
+    // The small layers are bent by the large ones, or their repeats would line up in the distance.
+    float bent_x = x + 2.0f * middle;
+    float bent_y = y + 9.0f * coarse;
+    float grain = tile_at(ground, bent_x, bent_y, grain_layer, &sx, &sy);
+    float fine = tile_at(ground, bent_x, bent_y, fine_layer, &sx, &sy);
     float light = grain + 0.8f * fine + 0.5f * middle + 0.3f * coarse;
     vec3s colour = glms_vec3_scale(ground->colour, expf(ground->variation * light));
     // Patches drift between dry, reddish and fresh, greenish ground.
