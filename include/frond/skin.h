@@ -3,6 +3,11 @@
 ///
 /// The skeleton comes first and skin only reads it: level of detail never moves a branch. Counting
 /// comes before writing; every vertex and index is written once, in its final place.
+///
+/// Bark: u goes around with a whole number of tiles; v is 0 at the base and falls towards the tip,
+/// so pictures stand upright; tiles shrink with the radius and keep their shape. An axis of point
+/// sets has its rings at the tips of its nodes and nothing before the first. From the second level
+/// of detail on ever fewer leaves are drawn, each enlarged (at most twice) to keep the whole area.
 #pragma once
 
 #include "frond/plant.h"
@@ -11,7 +16,7 @@
 typedef struct FrVertex {
     float position[3];
     float normal[3]; ///< unit
-    float uv[2];     ///< bark: anchored at the base, whole tiles around; blade: its picture
+    float uv[2];     ///< in tiles of bark; in the picture of a blade
 } FrVertex;
 
 /// What one material covers. Indices count from the part's first vertex.

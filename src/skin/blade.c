@@ -149,6 +149,13 @@ static void join_rows(FrShapeMesh *mesh, uint32_t low, uint32_t low_count, uint3
     }
 }
 
+void fr_blade_segments(const FrBlade *blade, const FrDetail *detail, uint32_t *along,
+                       uint32_t *across) {
+    uint32_t waves = blade->wave != 0.0F ? (uint32_t)fminf(4.0F * fabsf(blade->waves), 64.0F) : 0;
+    *along = fr_shape_segments(MAX(blade->segments_along, waves), 1, ROWS_MOST, detail);
+    *across = fr_shape_segments(blade->segments_across, 1, ACROSS_MOST, detail);
+}
+
 static void lay_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBladeForm *form,
                       const FrDetail *detail) {
     const FrBlade *blade = form->blade;
@@ -158,9 +165,8 @@ static void lay_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBladeForm
     if (!(outline.area > 1e-6)) {
         return;
     }
-    uint32_t waves = blade->wave != 0.0F ? (uint32_t)fminf(4.0F * fabsf(blade->waves), 64.0F) : 0;
-    uint32_t along = fr_shape_segments(MAX(blade->segments_along, waves), 1, ROWS_MOST, detail);
-    uint32_t across = fr_shape_segments(blade->segments_across, 1, ACROSS_MOST, detail);
+    uint32_t along, across;
+    fr_blade_segments(blade, detail, &along, &across);
     bool is_level = blade->curvature_across == 0.0F && blade->fold == 0.0F && blade->wave == 0.0F &&
                     blade->twist == 0.0F;
     // Two columns do where nothing bends across, and from far away.

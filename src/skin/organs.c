@@ -35,40 +35,45 @@ static double staying_at(int lod) {
     return part;
 }
 
-static void make_shapes(FrOrganPlan *organs) {
-    const FrPlan *plan = organs->plan;
-    const FrPlant *plant = plan->plant;
-    bool *is_used = g_new0(bool, plant->shapes->len + 1);
-    for (uint32_t i = 0; i < plant->organs.count; i++) {
-        if (plant->organs.shape[i] < plant->shapes->len) {
-            is_used[plant->organs.shape[i]] = true;
+static void make_shapes(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    FrOrganPlan *organs = data;
+    for (size_t i = begin; i < end; i++) {
+        if (organs->is_used[i]) {
+            fr_shape_mesh_init(&organs->shapes[i], organs->plan->plant, (uint32_t)i,
+                               &organs->plan->detail);
         }
     }
-    for (uint32_t i = 0; i < plant->shapes->len; i++) {
-        if (is_used[i]) {
-            fr_shape_mesh_init(&organs->shapes[i], plant, i, &plan->detail);
-        }
-    }
-    g_free(is_used);
 }
 
-void fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
+// Makes the shapes that organs have, once they are known not to be too large.
+static FrStatus prepare_shapes(FrOrganPlan *organs) {
+    const FrPlan *plan = organs->plan;
     const FrPlant *plant = plan->plant;
-    uint32_t count = plan->detail.foliage ? plant->organs.count : 0;
-    *organs = (FrOrganPlan){
-        .plan = plan,
-        .shapes = g_new0(FrShapeMesh, plant->shapes->len + 1),
-        .vertex = g_new(uint64_t, count),
-        .index = g_new(uint64_t, count),
-        .slot_vertices = g_new0(uint64_t, plan->slots),
-        .slot_indices = g_new0(uint64_t, plan->slots),
-        .slot_foliage = g_new0(bool, plan->slots),
-        .staying = staying_at(plan->detail.lod),
-    };
-    organs->enlarged = (float)fmin(1.0 / sqrt(organs->staying), 2.0);
-    if (count > 0) {
-        make_shapes(organs);
+    const FrContext *context = plan->context;
+    for (uint32_t i = 0; i < plant->organs.count; i++) {
+        if (plant->organs.shape[i] < plant->shapes->len) {
+            organs->is_used[plant->organs.shape[i]] = true;
+        }
     }
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < plant->shapes->len; i++) {
+        const FrShape *shape = &g_array_index(plant->shapes, FrShape, i);
+        bytes += organs->is_used[i] ? fr_shape_bytes_most(shape, &plan->detail) : 0;
+    }
+    FrStatus status = fr_limit_check(bytes, context->limits.bytes, "bytes", "shapes of organs",
+                                     (FrSpan){0}, context->diags);
+    if (status == FR_OK) {
+        fr_parallel_for(context->pool, plant->shapes->len, 8, make_shapes, organs,
+                        context->progress);
+    }
+    return status;
+}
+
+// Gives every organ its place in its part.
+static void place_organs(FrOrganPlan *organs, uint32_t count) {
+    const FrPlan *plan = organs->plan;
+    const FrPlant *plant = plan->plant;
     for (uint32_t i = 0; i < count; i++) {
         organs->index[i] = UINT64_MAX;
         uint32_t form = plant->organs.shape[i], slot = fr_slot(plant->organs.material[i]);
@@ -87,11 +92,37 @@ void fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
     }
 }
 
+FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
+    const FrPlant *plant = plan->plant;
+    uint32_t count = plan->detail.foliage ? plant->organs.count : 0;
+    *organs = (FrOrganPlan){
+        .plan = plan,
+        .shapes = g_new0(FrShapeMesh, plant->shapes->len + 1),
+        .is_used = g_new0(bool, plant->shapes->len + 1),
+        .vertex = g_new(uint64_t, count),
+        .index = g_new(uint64_t, count),
+        .slot_vertices = g_new0(uint64_t, plan->slots),
+        .slot_indices = g_new0(uint64_t, plan->slots),
+        .slot_foliage = g_new0(bool, plan->slots),
+        .staying = staying_at(plan->detail.lod),
+    };
+    organs->enlarged = (float)fmin(1.0 / sqrt(organs->staying), 2.0);
+    if (count == 0) {
+        return FR_OK;
+    }
+    FrStatus status = prepare_shapes(organs);
+    if (status == FR_OK) {
+        place_organs(organs, count);
+    }
+    return status;
+}
+
 void fr_organs_clear(FrOrganPlan *organs) {
     for (uint32_t i = 0; i < organs->plan->plant->shapes->len; i++) {
         fr_shape_mesh_clear(&organs->shapes[i]);
     }
     g_free(organs->shapes);
+    g_free(organs->is_used);
     g_free(organs->vertex);
     g_free(organs->index);
     g_free(organs->slot_vertices);

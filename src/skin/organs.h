@@ -16,11 +16,13 @@ typedef struct FrOrganPlan {
     uint64_t *index;                        ///< by organ: its first index in its part
     uint64_t *slot_vertices, *slot_indices; ///< by slot
     bool *slot_foliage;                     ///< by slot
+    bool *is_used;                          ///< by shape
     float enlarged;
     double staying; ///< part of the leaves
 } FrOrganPlan;
 
-void fr_organs_init(FrOrganPlan *organs, const FrPlan *plan);
+/// FR_ERR_LIMIT if the shapes alone would take too many bytes; then no shape has been made.
+FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan);
 void fr_organs_clear(FrOrganPlan *organs);
 /// Writes organs [begin, end).
 void fr_write_organs(const FrOrganPlan *organs, size_t begin, size_t end, FrUpAxis up, FrMesh *mesh,

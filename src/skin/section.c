@@ -5,8 +5,9 @@
 
 #include <math.h>
 
-// Ear clipping takes quadratic time; larger profiles are closed by a fan, right for convex ones.
-enum { EARS_MOST = 512 };
+// Ear clipping takes quadratic time, cubic at worst; larger profiles are closed by a fan, right for
+// convex ones.
+enum { EARS_MOST = 128 };
 
 static void allocate(FrSection *section, uint32_t points, bool is_closed) {
     section->is_closed = is_closed;

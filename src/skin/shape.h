@@ -17,6 +17,9 @@ void fr_shape_mesh_init(FrShapeMesh *mesh, const FrPlant *plant, uint32_t shape,
                         const FrDetail *detail);
 void fr_shape_mesh_clear(FrShapeMesh *mesh);
 
+/// At most so many bytes the mesh of a shape takes; counted, not made.
+uint64_t fr_shape_bytes_most(const FrShape *shape, const FrDetail *detail);
+
 /// Appends a vertex and answers its index.
 uint32_t fr_shape_vertex(FrShapeMesh *mesh, vec3s position, vec3s normal, float u, float v);
 /// Appends a triangle unless two of its corners are the same.
@@ -25,6 +28,9 @@ void fr_shape_triangle(FrShapeMesh *mesh, uint32_t a, uint32_t b, uint32_t c);
 /// A whole number of segments reduced for the level of detail.
 uint32_t fr_shape_segments(uint32_t wanted, uint32_t least, uint32_t most, const FrDetail *detail);
 
+/// Quads along a blade and across each half.
+void fr_blade_segments(const FrBlade *blade, const FrDetail *detail, uint32_t *along,
+                       uint32_t *across);
 void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
                     const FrDetail *detail);
 void fr_shape_primitive(FrShapeMesh *mesh, const FrShape *shape, const FrDetail *detail);

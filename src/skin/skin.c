@@ -200,12 +200,14 @@ FrStatus fr_skin_plant(const FrPlant *plant, const FrSkinParams *params, FrUpAxi
     fr_plan_init(&job.plan, plant, params, context);
     fr_parallel_for(context->pool, job.plan.runs->len, RUN_GRAIN, measure_range, &job,
                     context->progress);
-    fr_organs_init(&job.organs, &job.plan);
+    FrStatus status = fr_organs_init(&job.organs, &job.plan);
     fr_progress_report(context->progress, "skin", 0.3);
     job.wood_part = g_new(uint32_t, job.plan.slots);
     job.organ_part = g_new(uint32_t, job.plan.slots);
 
-    FrStatus status = fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : FR_OK;
+    if (status == FR_OK && fr_progress_is_cancelled(context->progress)) {
+        status = FR_CANCELLED;
+    }
     if (status == FR_OK) {
         FrSlotSum *wood = place_tubes(&job.plan);
         status = check_limits(&job, wood);

@@ -173,6 +173,14 @@ static void test_limits(void) {
     status = fr_skin_plant(plant, &params, FR_UP_Z, &context, &mesh);
     g_assert_cmpint(status, ==, FR_ERR_LIMIT);
     g_assert_cmpstr(fr_diags_get(context.diags, 1)->code, ==, "limit-bytes");
+    // The shapes alone may be too much.
+    FrShape leaf = g_array_index(plant->shapes, FrShape, 0);
+    leaf.blade.segments_along = leaf.blade.segments_across = UINT16_MAX;
+    plant->organs.shape[0] = fr_plant_add_shape(plant, &leaf);
+    context.limits.bytes = 500000;
+    status = fr_skin_plant(plant, &params, FR_UP_Z, &context, &mesh);
+    g_assert_cmpint(status, ==, FR_ERR_LIMIT);
+    g_assert_nonnull(strstr(fr_diags_get(context.diags, 2)->text, "shapes"));
     context.limits = fr_limits_default();
     context.progress = fr_progress_new(NULL, NULL);
     fr_progress_cancel(context.progress);

@@ -150,6 +150,24 @@ static void test_hostile(void) {
     fr_plant_free(plant);
 }
 
+// The thinnest twigs go from the parent's surface to their point at once.
+static void test_thin_twigs(void) {
+    for (int lod = 0; lod < 4; lod++) {
+        FrPlant *plant = fr_plant_new("twigs");
+        check_stem(plant, FR_NONE, 12, 4.0F, 0.2F, 0.15F, check_straight, check_straight);
+        for (uint32_t n = 1; n < 11; n++) {
+            check_stem(plant, n, 1, 0.2F, 0.003F, 0.001F,
+                       fr_rotation_about((vec3s){{1, 0, 0}}, 0.25F * (float)n), check_straight);
+        }
+        FrSkinParams params = fr_skin_default();
+        params.lod = lod;
+        FrMesh *mesh = check_skin(plant, &params);
+        check_sound(mesh);
+        fr_mesh_free(mesh);
+        fr_plant_free(plant);
+    }
+}
+
 // n points and m sets: Tube n·(m − 1) quads, Area (n − 1)·(m − 1).
 static void test_point_sets(void) {
     static const double points[][2] = {{1, 0}, {0.3, 0.3}, {0, 1}, {-1, 0}, {0, -1}};
@@ -248,6 +266,8 @@ int main(int argc, char **argv) {
                     test_thinning_keeps_shape);
     g_test_add_func("/skin/tube/no lengths, no radii and half turns give sound triangles",
                     test_hostile);
+    g_test_add_func("/skin/tube/twigs of one band have normals up to their points",
+                    test_thin_twigs);
     g_test_add_func("/skin/tube/point sets have the quads of their points and sets",
                     test_point_sets);
     g_test_add_func("/skin/tube/flatness is the ratio of the radii", test_flat_stem);
