@@ -8,9 +8,13 @@
 
 enum { MOST_ADAPTIVE = 256, INTERNODES_OF_PROFILE = 8, MOST_BEADS = 1000 };
 
-// An internode for so many radians of turn, of which a gnarl makes so many times its own angle;
-// but never more internodes for one gnarl than show its form.
-#define BEND_PER_INTERNODE (12 * DEGREE)
+// An internode for so many radians of turn, so few that no joint shows, and some for any bend.
+#define BEND_PER_INTERNODE (4.5 * DEGREE)
+#define LEAST_BEND (1 * DEGREE)
+#define LEAST_INTERNODES_OF_BEND 3
+// A gnarl makes so many times its own angle of turn, and shows less of each; never more internodes
+// for one gnarl than show its form.
+#define GNARL_PER_INTERNODE (12 * DEGREE)
 #define TURNS_PER_GNARL 2.5
 #define INTERNODES_PER_GNARL 5.0
 // A place nearer to the tip than this stands on it.
@@ -31,9 +35,12 @@ static uint32_t adaptive_internodes(const FrStem *stem) {
     double pull = fabs(stem->tropism.up) + fabs(stem->tropism.down) + fabs(stem->tropism.flat);
     turn += PI * (1 - exp(-pull));
     double count = turn / BEND_PER_INTERNODE;
+    if (turn > LEAST_BEND) {
+        count = fmax(count, LEAST_INTERNODES_OF_BEND);
+    }
     if (stem->gnarl > 0) {
         double most = INTERNODES_PER_GNARL * stem->gnarl_frequency;
-        double wanted = TURNS_PER_GNARL * stem->gnarl * stem->gnarl_frequency / BEND_PER_INTERNODE;
+        double wanted = TURNS_PER_GNARL * stem->gnarl * stem->gnarl_frequency / GNARL_PER_INTERNODE;
         count = fmax(count, fmin(most, fmax(wanted, stem->gnarl_frequency)));
     }
     if (params->profile != NULL) {
