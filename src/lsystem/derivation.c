@@ -1,0 +1,297 @@
+// A derivation from its axiom on: instances, blocks, the choice between sequential and parallel
+// steps, and what went wrong told with places.
+#include "lsystem/derive.h"
+
+#include "lsystem/ask.h"
+
+#include <math.h>
+
+#define MOST_INSTANCES 65535
+#define MOST_VARIABLES 64000000
+
+FrLsettings fr_lsettings_default(void) {
+    return (FrLsettings){.seed = -1, .steps = -1};
+}
+
+const FrLunit *fr_lsystem_unit(const FrLsystem *system, double id) {
+    for (guint u = 0; u < system->units->len; u++) {
+        const FrLunit *unit = g_ptr_array_index(system->units, u);
+        if ((double)unit->id == id) {
+            return unit;
+        }
+    }
+    return NULL;
+}
+
+// ---- instances --------------------------------------------------------------------------------
+
+uint32_t fr_linstance_new(FrLderivation *derivation, const FrLunit *unit,
+                          const FrContext *context) {
+    GPtrArray *instances = derivation->instances;
+    guint slot = instances->len;
+    for (guint i = 1; i < instances->len && slot == instances->len; i++) {
+        slot = g_ptr_array_index(instances, i) == NULL ? i : slot;
+    }
+    uint64_t variables = derivation->variables + unit->variables;
+    if (slot > MOST_INSTANCES || variables > MOST_VARIABLES) {
+        FrStatus status =
+            fr_limit_check(slot > MOST_INSTANCES ? slot : variables,
+                           slot > MOST_INSTANCES ? MOST_INSTANCES : MOST_VARIABLES, "calls",
+                           "calls of L-systems", (FrSpan){0}, context->diags);
+        return status == FR_OK ? 0 : FR_NONE;
+    }
+    FrLinstance *instance = g_new0(FrLinstance, 1);
+    instance->unit = unit;
+    instance->variables = g_new0(double, unit->variables);
+    derivation->variables = variables;
+    if (slot == instances->len) {
+        g_ptr_array_add(instances, instance);
+    } else {
+        instances->pdata[slot] = instance;
+    }
+    fr_linstance_enter(derivation, instance);
+    for (guint i = 0; i < unit->initializers->len; i++) {
+        fr_lmachine_run(&derivation->machine, g_array_index(unit->initializers, uint32_t, i));
+    }
+    if (unit->seed != FR_NONE) {
+        double seed = fr_lmachine_run(&derivation->machine, unit->seed);
+        instance->random =
+            fr_lrandom_seed_a(isfinite(seed) ? (int64_t)CLAMP(seed, -9e18, 9e18) : 0);
+    }
+    if (unit->is_stochastic && derivation->settings.seed >= 0) {
+        instance->random = fr_lrandom_seed_a(derivation->settings.seed);
+    }
+    return slot;
+}
+
+void fr_linstance_enter(FrLderivation *derivation, FrLinstance *instance) {
+    derivation->machine.variables = instance->variables;
+    instance->variables[FR_LVAR_Q] = (double)derivation->step;
+    instance->variables[FR_LVAR_Z] = (double)derivation->length;
+    derivation->machine.length = (uint64_t)derivation->length;
+}
+
+void fr_linstance_block(FrLderivation *derivation, FrLinstance *instance, int block) {
+    if (instance->unit->blocks[block] != FR_NONE) {
+        fr_lmachine_run(&derivation->machine, instance->unit->blocks[block]);
+    }
+}
+
+// ---- faults -----------------------------------------------------------------------------------
+
+static const char *fault_text(const char *code) {
+    if (strcmp(code, "division-by-zero") == 0) {
+        return "division by zero; the divisor is taken as 1";
+    }
+    if (strcmp(code, "index-range") == 0) {
+        return "an index is out of range; the nearest element is taken";
+    }
+    if (strcmp(code, "recursive-call") == 0) {
+        return "an L-system cannot call itself";
+    }
+    return "a module could be decomposed or replaced further, but 'maximum depth' is reached";
+}
+
+void fr_lderive_report(FrLderivation *derivation, FrLmachine *machine, const FrContext *context) {
+    const FrLsystem *system = derivation->system;
+    for (uint32_t i = 0; i < machine->fault_count; i++) {
+        const FrLfault *fault = &machine->faults[i];
+        if (!g_hash_table_add(derivation->told, GUINT_TO_POINTER(fault->place + 1))) {
+            continue;
+        }
+        FrSpan span = {0};
+        if (fault->place < system->places->len) {
+            size_t at = g_array_index(system->places, uint32_t, fault->place);
+            span = fr_ltext_span(system->text, at, at + 1);
+        }
+        fr_diags_add(context->diags, FR_WARNING, fault->code, span,
+                     "%s (step %" G_GUINT64_FORMAT ", module %" G_GUINT64_FORMAT ")",
+                     fault_text(fault->code), derivation->step, fault->module + 1);
+    }
+    machine->fault_count = 0;
+}
+
+FrStatus fr_lderive_check(FrLderivation *derivation, const FrContext *context) {
+    FrLmachine *machine = &derivation->machine;
+    if (!machine->is_endless) {
+        return FR_OK;
+    }
+    machine->is_endless = false;
+    return fr_limit_check(
+        machine->loops, machine->most_loops, "iterations", "the statements of this file",
+        (FrSpan){g_ptr_array_index(derivation->system->text->sources, 0), 0, 0}, context->diags);
+}
+
+// ---- beginning --------------------------------------------------------------------------------
+
+// Whether the modules of a step may be rewritten in any order.
+static bool can_be_parallel(const FrLsystem *system) {
+    const FrLunit *unit = g_ptr_array_index(system->units, 0);
+    if (system->units->len > 1 || system->has_cut || unit->sections[FR_LDECOMPOSE].list->len > 0) {
+        return false;
+    }
+    const GArray *list = unit->sections[FR_LDERIVE].list;
+    for (guint i = 0; i < list->len; i++) {
+        const FrLproduction *production =
+            &g_array_index(system->productions, FrLproduction, g_array_index(list, uint32_t, i));
+        if (!production->is_pure || production->strict.count != 1) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static FrStatus make_axiom(FrLderivation *derivation, const FrContext *context) {
+    const FrLsystem *system = derivation->system;
+    const FrLunit *unit = g_ptr_array_index(system->units, 0);
+    FrLstring *string = derivation->string;
+    FrStatus status = fr_limit_check(unit->axiom_modules, context->limits.modules, "modules",
+                                     "the axiom", (FrSpan){0}, context->diags);
+    if (status != FR_OK) {
+        return status;
+    }
+    if (!fr_lstring_reserve(string, unit->axiom_words + 1)) {
+        return FR_ERR_MACHINE;
+    }
+    if (unit->axiom_words > 0) {
+        memcpy(string->words, &g_array_index(system->words, uint32_t, unit->axiom),
+               unit->axiom_words * sizeof *string->words);
+    }
+    string->count = unit->axiom_words;
+    string->modules = unit->axiom_modules;
+    if (unit->axiom_values != FR_NONE) {
+        derivation->machine.out = string->words;
+        fr_lmachine_run(&derivation->machine, unit->axiom_values);
+    }
+    return FR_OK;
+}
+
+static FrStatus begin(FrLderivation *derivation, const FrContext *context) {
+    const FrLunit *unit = g_ptr_array_index(derivation->system->units, 0);
+    FrLmachine *machine = &derivation->machine;
+    if (fr_linstance_new(derivation, unit, context) == FR_NONE) {
+        return FR_ERR_LIMIT;
+    }
+    FrLinstance *instance = g_ptr_array_index(derivation->instances, 0);
+    double length =
+        unit->length == FR_NONE ? 0 : fr_lmachine_run(&derivation->machine, unit->length);
+    derivation->length = length >= 0 ? (int64_t)MIN(length, 9e15) : 0;
+    if (derivation->settings.steps >= 0) {
+        derivation->length = derivation->settings.steps;
+    }
+    fr_linstance_enter(derivation, instance);
+    machine->set_length = derivation->settings.steps < 0 ? &derivation->length : NULL;
+    instance->has_started = instance->was_seen = true;
+    fr_linstance_block(derivation, instance, FR_LSTART);
+    fr_linstance_enter(derivation, instance);
+    FrStatus status = make_axiom(derivation, context);
+    fr_lderive_report(derivation, machine, context);
+    FrStatus checked = fr_lderive_check(derivation, context);
+    return MAX(status, checked);
+}
+
+FrStatus fr_lderivation_new(const FrLsystem *system, const FrLsettings *settings,
+                            const FrContext *context, FrLderivation **out) {
+    *out = NULL;
+    FrLderivation *derivation = g_new0(FrLderivation, 1);
+    derivation->system = system;
+    derivation->settings = settings == NULL ? fr_lsettings_default() : *settings;
+    derivation->default_view = derivation->settings.view == NULL ? fr_lview_new() : NULL;
+    derivation->view =
+        derivation->settings.view == NULL ? derivation->default_view : derivation->settings.view;
+    derivation->string = fr_lstring_new();
+    derivation->other = fr_lstring_new();
+    derivation->instances = g_ptr_array_new();
+    derivation->choices = g_array_new(FALSE, FALSE, sizeof(uint16_t));
+    derivation->told = g_hash_table_new(NULL, NULL);
+    derivation->is_parallel = can_be_parallel(system);
+    derivation->machine = (FrLmachine){.system = system,
+                                       .view = derivation->view,
+                                       .random = {.state = FR_LSTREAM_START},
+                                       .most_loops = context->limits.iterations,
+                                       .print = derivation->settings.print,
+                                       .print_user = derivation->settings.print_user};
+    FrStatus status = begin(derivation, context);
+    if (status != FR_OK) {
+        fr_lderivation_free(derivation);
+        return status;
+    }
+    *out = derivation;
+    return FR_OK;
+}
+
+void fr_lderivation_free(FrLderivation *derivation) {
+    if (derivation == NULL) {
+        return;
+    }
+    for (guint i = 0; i < derivation->instances->len; i++) {
+        FrLinstance *instance = g_ptr_array_index(derivation->instances, i);
+        if (instance != NULL) {
+            g_free(instance->variables);
+            g_free(instance);
+        }
+    }
+    g_ptr_array_unref(derivation->instances);
+    g_array_unref(derivation->choices);
+    g_hash_table_unref(derivation->told);
+    fr_lstring_free(derivation->string);
+    fr_lstring_free(derivation->other);
+    fr_lview_free(derivation->default_view);
+    g_free(derivation);
+}
+
+// ---- steps ------------------------------------------------------------------------------------
+
+static FrStatus take_step(FrLderivation *derivation, const FrContext *context) {
+    FrLmachine *machine = &derivation->machine;
+    FrLinstance *instance = g_ptr_array_index(derivation->instances, 0);
+    derivation->step++;
+    machine->loops = 0;
+    fr_linstance_enter(derivation, instance);
+    fr_linstance_block(derivation, instance, FR_LSTART_EACH);
+    FrStatus status = derivation->is_parallel ? fr_lderive_parallel(derivation, context)
+                                              : fr_lderive_sequential(derivation, context);
+    if (status == FR_OK) {
+        fr_linstance_enter(derivation, instance);
+        fr_linstance_block(derivation, instance, FR_LEND_EACH);
+        if ((int64_t)derivation->step == derivation->length) {
+            fr_linstance_block(derivation, instance, FR_LEND);
+        }
+        derivation->is_answered = false;
+    }
+    fr_lderive_report(derivation, machine, context);
+    FrStatus checked = fr_lderive_check(derivation, context);
+    return MAX(status, checked);
+}
+
+FrStatus fr_lderivation_run(FrLderivation *derivation, uint64_t steps, const FrContext *context) {
+    FrStatus status = FR_OK;
+    for (uint64_t i = 0; i < steps && status == FR_OK && derivation->machine.stop == 0; i++) {
+        if (fr_progress_is_cancelled(context->progress)) {
+            return FR_CANCELLED;
+        }
+        status = fr_lderivation_ask(derivation, context);
+        if (status == FR_OK) {
+            status = take_step(derivation, context);
+            derivation->step -= status != FR_OK;
+        }
+        fr_progress_report(context->progress, "derive", (double)(i + 1) / (double)steps);
+    }
+    return status;
+}
+
+uint64_t fr_lderivation_length(const FrLderivation *derivation) {
+    return (uint64_t)derivation->length;
+}
+
+uint64_t fr_lderivation_step(const FrLderivation *derivation) {
+    return derivation->step;
+}
+
+bool fr_lderivation_is_stopped(const FrLderivation *derivation) {
+    return derivation->machine.stop != 0;
+}
+
+const FrLstring *fr_lderivation_string(const FrLderivation *derivation) {
+    return derivation->string;
+}

@@ -1,0 +1,361 @@
+// One step of a derivation, module after module: for L-systems whose productions write variables,
+// draw numbers, decompose, cut or call other L-systems.
+#include "lsystem/derive.h"
+
+#include <math.h>
+
+#define DEEPEST_CALL 100
+#define DEEPEST 4096 // decompositions within each other
+
+/// A step at work.
+typedef struct Step {
+    FrLderivation *derivation;
+    const FrContext *context;
+    const FrLstring *from;
+    FrLstring *to;
+    FrLindex index;
+    FrLmatcher matcher;
+    FrLinstance *instance;
+    const FrLsection *section, *decomposition;
+    uint32_t depth; ///< of decomposition
+    FrLinstance *callers[DEEPEST_CALL];
+    uint32_t calls;
+    GArray *scratch; ///< uint32_t: successors being decomposed
+    uint64_t work;   ///< productions applied
+    FrStatus status;
+    bool needs_index;
+} Step;
+
+static FrSpan production_span(const FrLproduction *production) {
+    return production == NULL ? (FrSpan){0} : production->span;
+}
+
+static void refuse(Step *step, uint64_t wanted, const FrLproduction *production) {
+    if (step->status == FR_OK) {
+        const FrLimits *limits = &step->context->limits;
+        step->status = fr_limit_check(MAX(wanted, limits->modules + 1), limits->modules, "modules",
+                                      production == NULL ? "the string" : production->name,
+                                      production_span(production), step->context->diags);
+    }
+}
+
+/// Room for `words` more words that belong to `modules` modules.
+static uint32_t *make_room(Step *step, uint64_t words, uint64_t modules,
+                           const FrLproduction *production) {
+    FrLstring *to = step->to;
+    if (to->modules + modules > step->context->limits.modules) {
+        refuse(step, to->modules + modules, production);
+        return NULL;
+    }
+    if (to->count + words > to->capacity) {
+        uint64_t wanted = MAX(to->count + words, to->capacity + to->capacity / 2);
+        if (to->count + words > UINT32_MAX || wanted * 4 > step->context->limits.bytes) {
+            step->status =
+                fr_limit_check(fr_count_multiply(wanted, 4),
+                               MIN(step->context->limits.bytes, (uint64_t)UINT32_MAX * 4), "bytes",
+                               "the string", production_span(production), step->context->diags);
+            if (step->status != FR_OK) {
+                return NULL;
+            }
+        }
+        if (!fr_lstring_reserve(to, wanted)) {
+            fr_diags_add(step->context->diags, FR_ERROR, "memory", production_span(production),
+                         "there is no memory for the string");
+            step->status = FR_ERR_MACHINE;
+            return NULL;
+        }
+    }
+    uint32_t *room = to->words + to->count;
+    to->count += words;
+    to->modules += modules;
+    return room;
+}
+
+static void copy_module(Step *step, const uint32_t *module) {
+    uint32_t words = 1 + fr_lhead_count(*module);
+    uint32_t *room = make_room(step, words, 1, NULL);
+    if (room != NULL) {
+        memcpy(room, module, words * sizeof *room);
+    }
+}
+
+/// Appends modules, each decomposed as far as it goes; `offset` and `count` are in the scratch.
+static void decompose(Step *step, guint offset, guint count, const FrLsite *site, uint32_t depth) {
+    guint at = offset;
+    while (at < offset + count && step->status == FR_OK) {
+        const uint32_t *words = (const uint32_t *)(const void *)step->scratch->data;
+        uint32_t taken;
+        const FrLproduction *production = fr_lmatch_first(
+            &step->matcher, step->decomposition, words + at, words + offset + count, site, &taken);
+        if (production != NULL && depth >= step->depth) {
+            if (step->decomposition->warns) {
+                uint32_t place = production->values == FR_NONE ? 0 : production->values;
+                fr_lmachine_fault(step->matcher.machine, "decomposition-depth", place);
+            }
+            production = NULL;
+        }
+        if (production == NULL) {
+            copy_module(step, words + at);
+            at += 1 + fr_lhead_count(words[at]);
+            continue;
+        }
+        if (++step->work > step->context->limits.modules) {
+            refuse(step, step->work, production);
+            return;
+        }
+        guint begin = step->scratch->len;
+        g_array_set_size(step->scratch, begin + production->word_count);
+        fr_lmatch_produce(&step->matcher, production,
+                          &g_array_index(step->scratch, uint32_t, begin));
+        decompose(step, begin, production->word_count, site, depth + 1);
+        g_array_set_size(step->scratch, begin);
+        at += taken;
+    }
+}
+
+static void append_decomposed(Step *step, const uint32_t *words, uint32_t count,
+                              const FrLsite *site) {
+    g_array_set_size(step->scratch, 0);
+    g_array_append_vals(step->scratch, words, count);
+    decompose(step, 0, count, site, 0);
+}
+
+static void apply(Step *step, const FrLproduction *production, const FrLsite *site) {
+    if (step->decomposition->list->len > 0) {
+        g_array_set_size(step->scratch, production->word_count);
+        fr_lmatch_produce(&step->matcher, production, (uint32_t *)(void *)step->scratch->data);
+        decompose(step, 0, production->word_count, site, 0);
+        return;
+    }
+    uint32_t *room = make_room(step, production->word_count, production->modules, production);
+    if (room != NULL) {
+        fr_lmatch_produce(&step->matcher, production, room);
+    }
+}
+
+// ---- sub-L-systems ----------------------------------------------------------------------------
+
+static void work_in(Step *step, FrLinstance *instance) {
+    step->instance = instance;
+    fr_linstance_enter(step->derivation, instance);
+    step->matcher =
+        fr_lmatcher(step->derivation->system, &step->derivation->machine, instance->unit);
+    step->section = &instance->unit->sections[FR_LDERIVE];
+    step->decomposition = &instance->unit->sections[FR_LDECOMPOSE];
+    step->depth = 1;
+    if (step->decomposition->depth != FR_NONE) {
+        double depth = fr_lmachine_run(&step->derivation->machine, step->decomposition->depth);
+        step->depth = (uint32_t)CLAMP(depth, 0, (double)MIN(step->context->limits.depth, DEEPEST));
+    }
+}
+
+// Variables that belong to the caller are copied in on entry and back on return.
+static void exchange(const FrLinstance *caller, FrLinstance *called, bool is_return) {
+    const GArray *externals = called->unit->externals;
+    for (guint i = 0; i < externals->len; i++) {
+        const FrLexternal *external = &g_array_index(externals, FrLexternal, i);
+        uint32_t theirs =
+            GPOINTER_TO_UINT(g_hash_table_lookup(caller->unit->globals, external->name));
+        if (theirs == 0 || theirs - 1 + (uint64_t)external->size > caller->unit->variables) {
+            continue;
+        }
+        double *outer = caller->variables + theirs - 1;
+        double *inner = called->variables + external->variable;
+        memcpy(is_return ? outer : inner, is_return ? inner : outer,
+               external->size * sizeof *outer);
+    }
+}
+
+static bool is_active(const Step *step, const FrLunit *unit) {
+    bool is_found = step->instance->unit == unit;
+    for (uint32_t i = 0; i < step->calls; i++) {
+        is_found |= step->callers[i]->unit == unit;
+    }
+    return is_found;
+}
+
+/// Enters the L-system that the module `?(id, …)` just copied calls.
+static void call(Step *step, uint32_t *module) {
+    FrLderivation *derivation = step->derivation;
+    const FrLunit *unit = fr_lsystem_unit(derivation->system, fr_lword_float(module[1]));
+    if (unit == NULL) {
+        return;
+    }
+    if (is_active(step, unit) || step->calls == DEEPEST_CALL) {
+        fr_lmachine_fault(&derivation->machine, "recursive-call", 0);
+        return;
+    }
+    uint32_t number = *module >> 16;
+    FrLinstance *instance = number == 0 || number >= derivation->instances->len
+                                ? NULL
+                                : g_ptr_array_index(derivation->instances, number);
+    if (instance == NULL || instance->unit != unit) {
+        number = fr_linstance_new(derivation, unit, step->context);
+        if (number == FR_NONE) {
+            step->status = FR_ERR_LIMIT;
+            return;
+        }
+        *module = (*module & FR_LHEAD_KEY) | number << 16;
+        instance = g_ptr_array_index(derivation->instances, number);
+    }
+    instance->was_seen = true;
+    exchange(step->instance, instance, false);
+    step->callers[step->calls++] = step->instance;
+    work_in(step, instance);
+    if (!instance->has_started) {
+        instance->has_started = true;
+        fr_linstance_block(derivation, instance, FR_LSTART);
+    }
+    fr_linstance_block(derivation, instance, FR_LSTART_EACH);
+}
+
+static void leave(Step *step) {
+    FrLinstance *called = step->instance;
+    fr_linstance_block(step->derivation, called, FR_LEND_EACH);
+    if ((int64_t)step->derivation->step == step->derivation->length) {
+        fr_linstance_block(step->derivation, called, FR_LEND);
+    }
+    work_in(step, step->callers[--step->calls]);
+    exchange(step->instance, called, true);
+}
+
+// ---- the scan ---------------------------------------------------------------------------------
+
+/// Words from a cut to the end of its branch (the bracket itself stays).
+static uint64_t cut(const Step *step, uint64_t at, uint64_t *module) {
+    const FrLstring *from = step->from;
+    uint32_t depth = 0;
+    while (at < from->count) {
+        unsigned symbol = fr_lhead_symbol(from->words[at]);
+        if ((symbol == ']' && depth == 0) || (symbol == '$' && step->calls > 0)) {
+            break;
+        }
+        depth += symbol == '[';
+        depth -= symbol == ']';
+        at += 1 + fr_lhead_count(from->words[at]);
+        (*module)++;
+    }
+    return at;
+}
+
+static void keep(Step *step, const uint32_t *here, const FrLsite *site) {
+    uint32_t words = 1 + fr_lhead_count(*here);
+    if (step->decomposition->list->len > 0) {
+        append_decomposed(step, here, words, site);
+        return;
+    }
+    copy_module(step, here);
+    unsigned symbol = fr_lhead_symbol(*here), count = words - 1;
+    if (symbol == '?' && (count == 1 || count == 2) && step->status == FR_OK) {
+        call(step, step->to->words + step->to->count - words);
+    }
+}
+
+static const FrLproduction *choose(Step *step, const uint32_t *here, const FrLsite *site,
+                                   uint32_t *taken) {
+    const uint32_t *end = step->from->words + step->from->count;
+    if (step->instance->unit->is_stochastic) {
+        double draw = fr_lrandom_next(&step->instance->random);
+        return fr_lmatch_random(&step->matcher, step->section, here, end, site, draw, taken);
+    }
+    return fr_lmatch_first(&step->matcher, step->section, here, end, site, taken);
+}
+
+static void scan(Step *step) {
+    const FrLstring *from = step->from;
+    FrLmachine *machine = &step->derivation->machine;
+    uint64_t at = 0, module = 0;
+    while (at < from->count && step->status == FR_OK) {
+        const uint32_t *here = from->words + at;
+        FrLsite site = {step->needs_index ? &step->index : NULL, (uint32_t)module, FR_NONE};
+        uint32_t taken = 1 + fr_lhead_count(*here);
+        machine->module = module;
+        if ((module & 0xFFFF) == 0 && fr_progress_is_cancelled(step->context->progress)) {
+            step->status = FR_CANCELLED;
+        }
+        if (step->calls > 0 && fr_lhead_symbol(*here) == '$') {
+            leave(step);
+            copy_module(step, here);
+            at += taken;
+            module++;
+            continue;
+        }
+        uint32_t words = taken;
+        const FrLproduction *production = choose(step, here, &site, &taken);
+        if (production != NULL) {
+            site.behind = (uint32_t)module + production->strict.count;
+            apply(step, production, &site);
+            at += taken;
+            module += production->strict.count;
+        } else if (*here == fr_lhead('%', 0)) {
+            at = cut(step, at, &module);
+        } else {
+            site.behind = (uint32_t)module + 1;
+            keep(step, here, &site);
+            at += words;
+            module++;
+        }
+        if (machine->is_endless) {
+            step->status = FR_ERR_LIMIT;
+        }
+    }
+}
+
+static bool any_context(const FrLsystem *system) {
+    for (guint u = 0; u < system->units->len; u++) {
+        const FrLunit *unit = g_ptr_array_index(system->units, u);
+        if (unit->sections[FR_LDERIVE].has_context || unit->sections[FR_LDECOMPOSE].has_context) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void end_unseen(FrLderivation *derivation) {
+    for (guint i = 1; i < derivation->instances->len; i++) {
+        FrLinstance *instance = g_ptr_array_index(derivation->instances, i);
+        if (instance != NULL && !instance->was_seen) {
+            fr_linstance_enter(derivation, instance);
+            fr_linstance_block(derivation, instance, FR_LEND);
+            derivation->variables -= instance->unit->variables;
+            g_free(instance->variables);
+            g_free(instance);
+            derivation->instances->pdata[i] = NULL;
+        }
+    }
+    fr_linstance_enter(derivation, g_ptr_array_index(derivation->instances, 0));
+}
+
+FrStatus fr_lderive_sequential(FrLderivation *derivation, const FrContext *context) {
+    Step step = {.derivation = derivation,
+                 .context = context,
+                 .from = derivation->string,
+                 .to = derivation->other,
+                 .status = FR_OK,
+                 .needs_index = any_context(derivation->system)};
+    step.to->count = step.to->modules = 0;
+    for (guint i = 1; i < derivation->instances->len; i++) {
+        FrLinstance *instance = g_ptr_array_index(derivation->instances, i);
+        if (instance != NULL) {
+            instance->was_seen = false;
+        }
+    }
+    if (step.needs_index) {
+        fr_lindex_build(&step.index, step.from->words, step.from->count, step.from->modules);
+    }
+    step.scratch = g_array_new(FALSE, FALSE, sizeof(uint32_t));
+    work_in(&step, g_ptr_array_index(derivation->instances, 0));
+    scan(&step);
+    while (step.calls > 0) {
+        leave(&step);
+    }
+    end_unseen(derivation);
+    g_array_unref(step.scratch);
+    fr_lindex_clear(&step.index);
+    if (step.status == FR_OK) {
+        g_array_set_size(step.to->marks, 0);
+        derivation->other = derivation->string;
+        derivation->string = step.to;
+    }
+    return step.status;
+}

@@ -1,0 +1,68 @@
+/// @file lsystem/derive.h
+/// A derivation at work: its string, its instances of L-systems, one step.
+#pragma once
+
+#include "lsystem/match.h"
+#include "lsystem/view.h"
+
+/// Where a module begins, for those who want to start in the middle.
+typedef struct FrLmark {
+    uint64_t word, module;
+} FrLmark;
+
+struct FrLstring {
+    uint32_t *words;
+    uint64_t count, capacity; ///< of words
+    uint64_t modules;
+    GArray *marks; ///< FrLmark: the begin and then one every few thousand words
+};
+
+/// An L-system called by `?`, or the main one, with its own variables.
+typedef struct FrLinstance {
+    const FrLunit *unit;
+    double *variables;
+    uint64_t random; ///< stream A
+    bool has_started, was_seen;
+} FrLinstance;
+
+struct FrLderivation {
+    const FrLsystem *system;
+    FrLsettings settings;
+    FrLview *default_view; ///< owned, where the settings have none
+    const FrLview *view;
+    FrLstring *string, *other; ///< now, and room for the next
+    GPtrArray *instances;      ///< FrLinstance *, some NULL; the first is the main one
+    uint64_t variables;        ///< of all instances
+    FrLmachine machine;
+    GArray *choices; ///< uint16_t: production of each module + 1, in parallel steps
+    int64_t length;
+    uint64_t step;
+    bool is_parallel; ///< nothing that a step does depends on the order of modules
+    bool is_answered; ///< the open symbols of this string have been answered
+    GHashTable *told; ///< places of faults that were reported
+};
+
+FrLstring *fr_lstring_new(void);
+/// Room for `words` words in all; false where the machine has none.
+bool fr_lstring_reserve(FrLstring *string, uint64_t words);
+
+/// One step; on success the strings are swapped. Faults stay in the machine.
+FrStatus fr_lderive_sequential(FrLderivation *derivation, const FrContext *context);
+FrStatus fr_lderive_parallel(FrLderivation *derivation, const FrContext *context);
+/// The string after homomorphism, one module after the other; stops where `take` returns false.
+/// `raw` tells that the turtle takes the next module as it is.
+typedef bool (*FrLtake)(void *data, const uint32_t *module, uint64_t origin);
+FrStatus fr_lderive_interpret(FrLderivation *derivation, FrLtake take, const bool *raw, void *data,
+                              const FrContext *context);
+
+/// Makes an instance; FR_NONE and an error where there are too many.
+uint32_t fr_linstance_new(FrLderivation *derivation, const FrLunit *unit, const FrContext *context);
+const FrLunit *fr_lsystem_unit(const FrLsystem *system, double id);
+/// Runs a block (Start, …) of an instance.
+void fr_linstance_block(FrLderivation *derivation, FrLinstance *instance, int block);
+/// Makes the variables of an instance those of the machine.
+void fr_linstance_enter(FrLderivation *derivation, FrLinstance *instance);
+/// Tells what went wrong and forgets it.
+void fr_lderive_report(FrLderivation *derivation, FrLmachine *machine, const FrContext *context);
+/// FR_OK, or the error of a loop that does not end.
+FrStatus fr_lderive_check(FrLderivation *derivation, const FrContext *context);

@@ -1,0 +1,260 @@
+// Matching as cpfg does it. The strict predecessor is read in place, contexts in the old string:
+// to the right branches are skipped unless the pattern names them, to the left the way leads from
+// a branch into its mother axis.
+#include "lsystem/match.h"
+
+#define MOST_CANDIDATES 1000
+
+void fr_lindex_build(FrLindex *index, const uint32_t *words, uint64_t count, uint64_t modules) {
+    index->words = words;
+    index->modules = (uint32_t)modules;
+    index->at = g_new(uint32_t, modules + 1);
+    index->partner = g_new(uint32_t, modules + 1);
+    uint64_t at = 0;
+    uint32_t open = FR_NONE; // a chain through `partner` of the brackets that are open
+    for (uint32_t i = 0; i < index->modules; i++) {
+        index->at[i] = (uint32_t)at;
+        uint32_t symbol = fr_lhead_symbol(words[at]);
+        if (symbol == '[') {
+            index->partner[i] = open;
+            open = i;
+        } else if (symbol == ']') {
+            uint32_t outer = open == FR_NONE ? FR_NONE : index->partner[open];
+            index->partner[i] = open;
+            if (open != FR_NONE) {
+                index->partner[open] = i;
+            }
+            open = outer;
+        }
+        at += 1 + fr_lhead_count(words[at]);
+    }
+    index->at[index->modules] = (uint32_t)count;
+    while (open != FR_NONE) {
+        uint32_t outer = index->partner[open];
+        index->partner[open] = FR_NONE;
+        open = outer;
+    }
+}
+
+void fr_lindex_clear(FrLindex *index) {
+    g_free(index->at);
+    g_free(index->partner);
+    *index = (FrLindex){0};
+}
+
+FrLmatcher fr_lmatcher(const FrLsystem *system, FrLmachine *machine, const FrLunit *unit) {
+    return (FrLmatcher){machine, unit,
+                        (const FrLproduction *)(const void *)system->productions->data,
+                        (const FrLpattern *)(const void *)system->patterns->data,
+                        (const FrLformal *)(const void *)system->formals->data};
+}
+
+/// Binds the parameters of one module; false if a literal differs.
+static bool bind(const FrLmatcher *matcher, const FrLpattern *pattern, const uint32_t *module) {
+    const FrLformal *formal = matcher->formals + pattern->formal;
+    unsigned count = fr_lhead_count(pattern->key);
+    double *variables = matcher->machine->variables;
+    for (unsigned i = 0; i < count; i++) {
+        float value = fr_lword_float(module[1 + i]);
+        if (formal[i].variable != FR_NONE) {
+            variables[formal[i].variable] = value;
+        } else if (!(formal[i].literal == value)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Words of the strict predecessor, 0 if it does not match.
+static inline uint32_t match_strict(const FrLmatcher *matcher, const FrLproduction *production,
+                                    const uint32_t *here, const uint32_t *end) {
+    const FrLpattern *pattern = matcher->patterns + production->strict.first;
+    const uint32_t *at = here;
+    for (uint32_t i = 0; i < production->strict.count; i++) {
+        if (at >= end || (*at & FR_LHEAD_KEY) != pattern[i].key ||
+            !bind(matcher, &pattern[i], at)) {
+            return 0;
+        }
+        at += 1 + fr_lhead_count(*at);
+    }
+    return (uint32_t)(at - here);
+}
+
+static unsigned symbol_at(const FrLindex *index, uint32_t module) {
+    return fr_lhead_symbol(index->words[index->at[module]]);
+}
+
+static bool match_right(const FrLmatcher *matcher, const FrLproduction *production,
+                        const FrLindex *index, uint32_t at) {
+    const FrLpattern *pattern = matcher->patterns + production->right.first;
+    const bool *is_ignored = matcher->unit->is_ignored;
+    bool may_wrap = matcher->unit->is_ring;
+    for (uint32_t i = 0; i < production->right.count; i++) {
+        unsigned wanted = fr_lhead_symbol(pattern[i].key);
+        for (;; at++) {
+            if (at >= index->modules) {
+                if (!may_wrap) {
+                    // The end of a level is reached by '=' only.
+                    return wanted == '=' && i + 1 == production->right.count;
+                }
+                may_wrap = false;
+                at = 0;
+            }
+            unsigned symbol = symbol_at(index, at);
+            if (is_ignored[symbol]) {
+                continue;
+            }
+            if (wanted == '=' ? symbol == ']' : symbol != '[' || wanted == '[') {
+                break;
+            }
+            if (symbol == '[') {
+                at = index->partner[at];
+                if (at == FR_NONE) {
+                    return false;
+                }
+            }
+        }
+        const uint32_t *module = index->words + index->at[at];
+        if (wanted == '=') {
+            continue;
+        }
+        if ((*module & FR_LHEAD_KEY) != pattern[i].key || !bind(matcher, &pattern[i], module)) {
+            return false;
+        }
+        at++;
+    }
+    return true;
+}
+
+static bool match_left(const FrLmatcher *matcher, const FrLproduction *production,
+                       const FrLindex *index, uint32_t at) {
+    const FrLpattern *pattern = matcher->patterns + production->left.first;
+    const bool *is_ignored = matcher->unit->is_ignored;
+    bool may_wrap = matcher->unit->is_ring;
+    for (uint32_t i = production->left.count; i-- > 0;) {
+        for (;;) {
+            if (at == 0) {
+                if (!may_wrap || index->modules == 0) {
+                    return false;
+                }
+                may_wrap = false;
+                at = index->modules;
+            }
+            unsigned symbol = symbol_at(index, --at);
+            if (symbol == ']') {
+                at = index->partner[at];
+                if (at == FR_NONE) {
+                    return false;
+                }
+            } else if (symbol != '[' && !is_ignored[symbol]) {
+                break;
+            }
+        }
+        const uint32_t *module = index->words + index->at[at];
+        if ((*module & FR_LHEAD_KEY) != pattern[i].key || !bind(matcher, &pattern[i], module)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Words of the predecessor if the production applies, else 0.
+static uint32_t match(const FrLmatcher *matcher, const FrLproduction *production,
+                      const uint32_t *here, const uint32_t *end, const FrLsite *site) {
+    uint32_t taken = match_strict(matcher, production, here, end);
+    if (taken == 0 || production->is_plain) {
+        return taken;
+    }
+    uint32_t modules = production->strict.count;
+    if (production->right.count > 0 &&
+        !match_right(matcher, production, site->index,
+                     site->behind == FR_NONE ? site->before + modules : site->behind)) {
+        return 0;
+    }
+    if (production->left.count > 0 && !match_left(matcher, production, site->index, site->before)) {
+        return 0;
+    }
+    if (production->before != FR_NONE) {
+        fr_lmachine_run(matcher->machine, production->before);
+    }
+    if (production->condition != FR_NONE &&
+        fr_lmachine_run(matcher->machine, production->condition) == 0) {
+        return 0;
+    }
+    return taken;
+}
+
+const FrLproduction *fr_lmatch_first(const FrLmatcher *matcher, const FrLsection *section,
+                                     const uint32_t *here, const uint32_t *end, const FrLsite *site,
+                                     uint32_t *taken) {
+    unsigned symbol = fr_lhead_symbol(*here);
+    for (uint32_t i = section->start[symbol]; i < section->start[symbol + 1]; i++) {
+        const FrLproduction *production = matcher->productions + section->sorted[i];
+        *taken = match(matcher, production, here, end, site);
+        if (*taken > 0) {
+            return production;
+        }
+    }
+    return NULL;
+}
+
+const FrLproduction *fr_lmatch_random(const FrLmatcher *matcher, const FrLsection *section,
+                                      const uint32_t *here, const uint32_t *end,
+                                      const FrLsite *site, double draw, uint32_t *taken) {
+    unsigned symbol = fr_lhead_symbol(*here);
+    uint32_t found[MOST_CANDIDATES], count = 0, words = 0;
+    double weights[MOST_CANDIDATES], total = 0;
+    for (uint32_t i = section->start[symbol]; i < section->start[symbol + 1]; i++) {
+        const FrLproduction *production = matcher->productions + section->sorted[i];
+        words = match(matcher, production, here, end, site);
+        if (words > 0 && count < MOST_CANDIDATES) {
+            double weight = production->weight == FR_NONE
+                                ? 1
+                                : fr_lmachine_run(matcher->machine, production->weight);
+            weights[count] = weight > 0 ? weight : 0;
+            total += weights[count];
+            found[count++] = section->sorted[i];
+        }
+    }
+    if (count == 0 || !(total > 0)) {
+        return NULL;
+    }
+    double rest = total * draw;
+    uint32_t chosen = 0;
+    for (; chosen + 1 < count; chosen++) {
+        rest -= weights[chosen];
+        if (rest <= 0) {
+            break;
+        }
+    }
+    const FrLproduction *production = matcher->productions + found[chosen];
+    *taken = match_strict(matcher, production, here, end);
+    fr_lmatch_bind(matcher, production, here, end, site);
+    return production;
+}
+
+void fr_lmatch_bind(const FrLmatcher *matcher, const FrLproduction *production,
+                    const uint32_t *here, const uint32_t *end, const FrLsite *site) {
+    match_strict(matcher, production, here, end);
+    if (production->right.count > 0) {
+        match_right(matcher, production, site->index,
+                    site->behind == FR_NONE ? site->before + production->strict.count
+                                            : site->behind);
+    }
+    if (production->left.count > 0) {
+        match_left(matcher, production, site->index, site->before);
+    }
+}
+
+void fr_lmatch_produce(const FrLmatcher *matcher, const FrLproduction *production, uint32_t *out) {
+    const FrLsystem *system = matcher->machine->system;
+    if (production->after != FR_NONE) {
+        fr_lmachine_run(matcher->machine, production->after);
+    }
+    memcpy(out, &g_array_index(system->words, uint32_t, production->words),
+           production->word_count * sizeof *out);
+    if (production->values != FR_NONE) {
+        matcher->machine->out = out;
+        fr_lmachine_run(matcher->machine, production->values);
+    }
+}
