@@ -6,16 +6,28 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+enum { MARK_STRIDE = 1 << 14 }; // bytes between marks
+
+// Where a character begins, and its line and column: from the nearest mark before it, a place is
+// found in one stride.
+typedef struct Mark {
+    size_t offset;
+    uint32_t line, column;
+} Mark;
 
 struct FrSource {
     atomic_int references;
     char *name;
     char *text;
     size_t size;
+    pthread_mutex_t lock; // guards `marks`
+    GArray *marks;        // of Mark, the first at 0; NULL until a place is asked for
 };
 
 // Takes over `text`, which has a zero byte after `size`.
@@ -23,6 +35,7 @@ static FrSource *new_source(const char *name, char *text, size_t size) {
     FR_ASSERT(size < UINT32_MAX); // spans hold 32-bit offsets; readers are limited before
     FrSource *source = g_new0(FrSource, 1);
     atomic_init(&source->references, 1);
+    pthread_mutex_init(&source->lock, NULL);
     source->name = g_strdup(name);
     source->text = text;
     source->size = size;
@@ -133,6 +146,10 @@ void fr_source_unref(FrSource *source) {
     if (source == NULL || atomic_fetch_sub(&source->references, 1) > 1) {
         return;
     }
+    if (source->marks != NULL) {
+        g_array_unref(source->marks);
+    }
+    pthread_mutex_destroy(&source->lock);
     g_free(source->name);
     g_free(source->text);
     g_free(source);
@@ -149,28 +166,48 @@ const char *fr_source_text(const FrSource *source, size_t *size) {
     return source->text;
 }
 
-void fr_source_position(const FrSource *source, size_t offset, uint32_t *line, uint32_t *column) {
-    const char *target = source->text + (offset < source->size ? offset : source->size);
-    const char *line_begin = source->text;
-    uint32_t line_number = 1;
-    for (;;) {
-        const char *newline = memchr(line_begin, '\n', (size_t)(target - line_begin));
-        if (newline == NULL) {
+// Steps on while the character at the mark ends before or at `target`. An offset within a character
+// has the column of that character.
+static Mark walk(const FrSource *source, Mark at, size_t target) {
+    const char *end = source->text + source->size;
+    while (at.offset < target) {
+        TextChar c = fr_text_char(source->text + at.offset, end);
+        if (at.offset + c.size > target) {
             break;
         }
-        line_begin = newline + 1;
-        line_number++;
+        at.offset += c.size;
+        at.column++;
+        if (c.code == '\n') {
+            at.line++;
+            at.column = 1;
+        }
     }
-    const char *end = source->text + source->size;
-    uint32_t column_number = 1;
-    const char *at = line_begin;
-    while (at < target) {
-        at += fr_text_char(at, end).size;
-        // An offset within a character has the column of that character.
-        column_number += at <= target ? 1 : 0;
+    return at;
+}
+
+static GArray *make_marks(const FrSource *source) {
+    GArray *marks = g_array_new(FALSE, FALSE, sizeof(Mark));
+    Mark at = {0, 1, 1};
+    g_array_append_val(marks, at);
+    for (size_t target = MARK_STRIDE; target <= source->size; target += MARK_STRIDE) {
+        at = walk(source, at, target);
+        g_array_append_val(marks, at);
     }
-    *line = line_number;
-    *column = column_number;
+    return marks;
+}
+
+void fr_source_position(const FrSource *source, size_t offset, uint32_t *line, uint32_t *column) {
+    FrSource *cache = (FrSource *)source; // the marks are a cache: they do not change the source
+    pthread_mutex_lock(&cache->lock);
+    if (cache->marks == NULL) {
+        cache->marks = make_marks(source);
+    }
+    pthread_mutex_unlock(&cache->lock);
+    size_t target = offset < source->size ? offset : source->size;
+    Mark mark = g_array_index(source->marks, Mark, target / MARK_STRIDE);
+    mark = walk(source, mark, target);
+    *line = mark.line;
+    *column = mark.column;
 }
 
 FrSpan fr_span_inside(FrSpan outer, size_t begin, size_t end) {

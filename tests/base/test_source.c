@@ -28,6 +28,50 @@ static void test_positions(void) {
     fr_source_unref(source);
 }
 
+// Against counting from the start, at offsets around which an index might err.
+static void test_positions_of_large_text(void) {
+    GString *text = g_string_new(NULL);
+    for (int i = 0; i < 30000; i++) {
+        g_string_append(text, i % 7 == 0 ? "\n" : i % 3 == 0 ? "\xe6\xa8\xb9" : "ab");
+        if (i > 12000 && i < 22000) {
+            g_string_append(text, "\xe6\xa8"); // a cut character
+        }
+    }
+    FrSource *source = fr_source_new("s", text->str, text->len);
+    for (size_t stride = 1 << 10; stride <= 1 << 16; stride *= 2) {
+        for (size_t offset = stride - 3; offset < stride + 4 && offset < text->len; offset++) {
+            uint32_t line = 1, column = 1;
+            for (size_t at = 0; at < offset;) {
+                gunichar c = g_utf8_get_char_validated(text->str + at, (gssize)(text->len - at));
+                size_t size =
+                    c == '\n' || c >= (gunichar)-2 ? 1 : (size_t)g_unichar_to_utf8(c, NULL);
+                at += size;
+                line += c == '\n' ? 1 : 0;
+                column = c == '\n' ? 1 : column + (at <= offset ? 1 : 0);
+            }
+            check_position(source, offset, line, column);
+        }
+    }
+    fr_source_unref(source);
+    g_string_free(text, TRUE);
+}
+
+// Twenty errors at the end of a large document are printed in one pass over it, not in twenty.
+static void test_positions_are_found_at_once(void) {
+    const size_t size = 20 << 20;
+    char *text = g_malloc(size);
+    memset(text, '\n', size);
+    FrSource *source = fr_source_new("s", text, size);
+    g_free(text);
+    check_position(source, size, (uint32_t)size + 1, 1);
+    gint64 began = g_get_monotonic_time();
+    for (size_t i = 0; i < 1000; i++) {
+        check_position(source, size - i, (uint32_t)(size - i) + 1, 1);
+    }
+    g_assert_cmpint(g_get_monotonic_time() - began, <, 1000000);
+    fr_source_unref(source);
+}
+
 static void test_text_is_copied(void) {
     char text[] = "abc";
     FrSource *source = fr_source_new("s", text, 2);
@@ -115,6 +159,10 @@ static void test_not_a_file(void) {
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/base/source/positions count lines and code points from one", test_positions);
+    g_test_add_func("/base/source/positions in a large text are those counted from its start",
+                    test_positions_of_large_text);
+    g_test_add_func("/base/source/positions after many lines are found at once",
+                    test_positions_are_found_at_once);
     g_test_add_func("/base/source/a source keeps its own copy", test_text_is_copied);
     g_test_add_func("/base/source/an inner span stays inside", test_span_inside);
     g_test_add_func("/base/source/a file is read whole, zero bytes too", test_load);
