@@ -1,9 +1,11 @@
 /// The session around a verb: threads, Ctrl-C, diagnostics, the way from a file to a scene.
 #include "cli/cli.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 // Written by the signal handler: what to cancel, and what has asked for it.
 static FrProgress *volatile watched;
@@ -116,13 +118,24 @@ FrStatus cli_session_build(CliSession *session, const char *path, FrDocument **d
     return status;
 }
 
-FrStatus cli_session_save(CliSession *session, const char *path, const void *data, size_t size) {
-    GError *error = NULL;
-    if (g_file_set_contents_full(path, data, (gssize)size, G_FILE_SET_CONTENTS_CONSISTENT, 0666,
-                                 &error)) {
-        return FR_OK;
+typedef struct Bytes {
+    const char *data;
+    size_t size;
+} Bytes;
+
+static bool write_bytes(void *user, int descriptor) {
+    const Bytes *bytes = user;
+    for (size_t done = 0; done < bytes->size;) {
+        ssize_t written = write(descriptor, bytes->data + done, bytes->size - done);
+        if (written < 0 && errno != EINTR) {
+            return false;
+        }
+        done += written > 0 ? (size_t)written : 0;
     }
-    fr_diags_add(session->context.diags, FR_ERROR, "write", (FrSpan){0}, "%s", error->message);
-    g_error_free(error);
-    return FR_ERR_MACHINE;
+    return true;
+}
+
+FrStatus cli_session_save(CliSession *session, const char *path, const void *data, size_t size) {
+    Bytes bytes = {data, size};
+    return fr_io_replace_file(path, write_bytes, &bytes, session->context.diags);
 }

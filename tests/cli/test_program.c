@@ -4,6 +4,7 @@
 #include <glib.h>
 #include <jansson.h>
 #include <signal.h>
+#include <unistd.h>
 
 typedef struct Command {
     const char *arguments;
@@ -174,6 +175,32 @@ static void test_same_seed(void) {
     leave_folder(folder, previous);
 }
 
+/// What -o and --stats name keeps its kind: a link stays a link, a device stays a device.
+static void test_outputs_keep_their_kind(void) {
+    char *previous;
+    char *folder = enter_folder(&previous);
+    const char *links[] = {"stats.json", "picture.png"};
+    const char *commands[] = {
+        "build $S/examples/figure2.frond --stats stats.json",
+        "render $S/examples/figure2.frond --size 4x4 --samples 1 -o picture.png"};
+    for (size_t i = 0; i < G_N_ELEMENTS(links); i++) {
+        g_assert_cmpint(symlink("/dev/full", links[i]), ==, 0);
+        Run full = run(commands[i]);
+        g_assert_cmpint(full.exit, ==, 4);
+        g_assert_nonnull(strstr(full.err, "No space left on device"));
+        clear(&full);
+        g_assert_true(g_file_test(links[i], G_FILE_TEST_IS_SYMLINK));
+        g_remove(links[i]);
+        g_assert_cmpint(symlink("aim", links[i]), ==, 0);
+        g_assert_true(g_file_set_contents("aim", "", 0, NULL));
+        Run linked = run(commands[i]);
+        g_assert_cmpint(linked.exit, ==, 0);
+        clear(&linked);
+        g_assert_true(g_file_test(links[i], G_FILE_TEST_IS_SYMLINK));
+    }
+    leave_folder(folder, previous);
+}
+
 static void test_new(void) {
     char *previous;
     char *folder = enter_folder(&previous);
@@ -230,6 +257,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/cli/commands end as they should and say why", test_commands);
     g_test_add_func("/cli/figure 2 has nine of D in three chains of three", test_figure2);
     g_test_add_func("/cli/statistics agree with the model", test_stats);
+    g_test_add_func("/cli/a link or device that is written to stays one",
+                    test_outputs_keep_their_kind);
     g_test_add_func("/cli/a seed gives the same plant for any number of threads", test_same_seed);
     g_test_add_func("/cli/a preset begins a document and overwrites none", test_new);
     g_test_add_func("/cli/an interrupt leaves no file", test_interrupted);
