@@ -201,13 +201,13 @@ static FrStatus write_asset(const FrScene *scene, const char *path, const FrIoOp
     FrIoMeshes meshes;
     gint64 start = g_get_monotonic_time();
     FrStatus status = fr_io_meshes_make(&meshes, scene, &skin, FR_UP_Y, false, context);
+    gint64 skinned = g_get_monotonic_time();
     if (status != FR_OK) {
         return status;
     }
     FrGltf gltf;
     gltf_init(&gltf, scene, path, context);
     status = fr_gltf_add_scene(&gltf, &meshes, options);
-    gint64 skinned = g_get_monotonic_time();
     if (status == FR_OK) {
         status = is_binary ? write_glb(&gltf, path, &stats->bytes)
                            : write_gltf(&gltf, path, &stats->bytes);
