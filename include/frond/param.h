@@ -20,6 +20,7 @@
 /// | POINTS    | FrPoints    | "x,y x,y …"                                |             |
 /// | VECTOR    | vec3s       | "x, y, z" or one number for all three      |             |
 /// | COLOUR    | vec3s       | "#rrggbb", stored as sRGB 0 to 1           |             |
+/// | FORMULA   | FrExpr *    | an expression of `choices` ("x y z") alone; NULL if "" |
 #pragma once
 
 #include "frond/number.h"
@@ -40,6 +41,7 @@ typedef enum FrParamKind {
     FR_PARAM_POINTS,
     FR_PARAM_VECTOR,
     FR_PARAM_COLOUR,
+    FR_PARAM_FORMULA,
 } FrParamKind;
 
 typedef struct FrParam {
@@ -48,7 +50,8 @@ typedef struct FrParam {
     const char *default_text;
     double min, max;     ///< hard range in the document's unit, both ends allowed
     const char *unit;    ///< "" if dimensionless
-    const char *choices; ///< for CHOICE, names separated by spaces; for REAL, NUMBER: ""
+    const char *choices; ///< names separated by spaces: for CHOICE what to choose from, for
+                         ///< FORMULA its variables in the order of their values; else ""
     const char *meaning; ///< one line
     size_t offset;       ///< of the field in its struct
 } FrParam;
@@ -71,6 +74,7 @@ typedef struct FrParamTable {
 #define FR_TYPE_POINTS FrPoints
 #define FR_TYPE_VECTOR vec3s
 #define FR_TYPE_COLOUR vec3s
+#define FR_TYPE_FORMULA FrExpr *
 
 /// Expands a row to a struct field.
 #define FR_PARAM_FIELD(kind, field, text, min, max, unit, choices, meaning)                        \

@@ -23,6 +23,8 @@
 #include "frond/context.h"
 #include "frond/curve.h"
 #include "frond/digest.h"
+#include "frond/expr.h"
+#include "frond/lattice.h"
 #include "frond/material.h"
 #include "frond/random.h"
 #include "frond/vector.h"
@@ -134,20 +136,51 @@ typedef enum FrShapeKind {
     FR_SHAPE_SQUARE,
     FR_SHAPE_CIRCLE,
     FR_SHAPE_TRIANGLE,
+    FR_SHAPE_MESH, ///< triangles of a profile, see FrShape.detail
+    FR_SHAPE_REVOLUTION, ///< an outline turned about the z axis
 } FrShapeKind;
 
 /// What organs are placements of. Equal parameters give the same shape.
 typedef struct FrShape {
     FrShapeKind kind;
     vec3s size;      ///< primitives: extent along x, y, z; they stand on the origin, along z
-    uint32_t detail; ///< primitives: segments around, ≥ 3
-    FrBlade blade;   ///< for FR_SHAPE_BLADE
+    uint32_t detail; ///< primitives: segments around, ≥ 3. FR_SHAPE_MESH: the profile whose points
+                     ///< come in pairs, (x, y) and (z, 0), a corner each, three a triangle; at
+                     ///< most 2600 triangles, scaled by `size`
+    uint32_t outline; ///< FR_SHAPE_REVOLUTION: profile whose points are (along 0–1, half width 0–0.5)
+                      ///< of `size`, in the order in which its outer side lies to the right of one
+                      ///< who goes up; open ends that are not on the axis stay open
+    FrBlade blade;    ///< for FR_SHAPE_BLADE
 } FrShape;
 
-/// Scope of a free-form deformation, applied by skin.
+typedef enum FrDeformationKind {
+    FR_DEFORM_NOTHING,   ///< leaves everything where it is
+    FR_DEFORM_FUNCTIONS, ///< by three expressions
+    FR_DEFORM_LATTICE,   ///< by the control points of a box
+} FrDeformationKind;
+
+/// How space is deformed, in the coordinates of the scope that does it.
+typedef struct FrDeformation {
+    FrDeformationKind kind;
+    bool is_skeleton; ///< moves the nodes of axes and keeps cross-sections and organs as they are;
+                      ///< otherwise every vertex is moved
+    bool is_cut;      ///< scopes around it move what is within as one rigid body
+    FrExpr *map[3];   ///< FR_DEFORM_FUNCTIONS: the new x, y, z from x, y, z, amount; references
+    FrLattice lattice;  ///< FR_DEFORM_LATTICE
+    uint32_t component; ///< what made it, for messages; FR_NONE
+} FrDeformation;
+
+/// Scope of a free-form deformation: where one stands. Skin applies it to the axes and organs that
+/// name the scope, then the one around it, and so on; scopes come after those around them.
 typedef struct FrDeformer {
-    uint32_t outer; ///< scope around it, FR_NONE
-    uint32_t kind;  ///< 0: none (cuts off outer scopes)
+    uint32_t outer;       ///< scope around it, FR_NONE
+    uint32_t deformation; ///< index into deformations
+    uint32_t node;        ///< where it stands, as an organ does; FR_NONE: the plant's origin
+    vec3s offset;         ///< from the node's tip, in its frame
+    versors rotation;     ///< scope to node frame
+    float scale;          ///< metres of a unit of its coordinates, > 0
+    float strength;       ///< 0 nothing moves, 1 all the way
+    float amount;         ///< the variable of its functions
 } FrDeformer;
 
 /// Name of what made an axis or an organ.
@@ -166,6 +199,7 @@ typedef struct FrPlant {
     GArray *profiles;          ///< FrProfile
     GPtrArray *materials;      ///< FrMaterial *, owned references
     GArray *deformers;         ///< FrDeformer
+    GArray *deformations;      ///< FrDeformation
     GArray *components;        ///< FrComponent
     GHashTable *shape_index;   ///< private to fr_plant_add_shape()
     GHashTable *profile_index; ///< private to fr_plant_add_profile()
@@ -198,6 +232,10 @@ FR_API uint32_t fr_plant_add_profile(FrPlant *plant, const double (*points)[2], 
                                      bool is_closed);
 /// Takes a reference; a material already there gives its index.
 FR_API uint32_t fr_plant_add_material(FrPlant *plant, FrMaterial *material);
+/// Appends a way of deforming; takes references to its expressions.
+FR_API uint32_t fr_plant_add_deformation(FrPlant *plant, const FrDeformation *deformation);
+/// Appends scopes without outer one, node, turn; scale and strength 1. Returns the first.
+FR_API uint32_t fr_plant_append_deformers(FrPlant *plant, uint32_t count);
 FR_API uint32_t fr_plant_add_component(FrPlant *plant, const char *id, FrSpan span);
 
 // ---- passes -----------------------------------------------------------------------------------
@@ -229,6 +267,10 @@ FR_API void fr_plant_compact(FrPlant *plant);
 /// Smallest box around node tips, axis origins and organ positions (not their shapes) of what is
 /// neither shed nor hidden. min > max for an empty plant. Reads the cache.
 FR_API void fr_plant_bounds(const FrPlant *plant, vec3s *min, vec3s *max);
+
+/// A copy whose axes and organs stand where the deformations of the skeleton move them, for whoever
+/// reads the skeleton only; skin needs no such copy. Reads the cache.
+FR_API FrPlant *fr_plant_deformed(const FrPlant *plant);
 
 /// Digest of everything that is truth: all columns but the cache, shapes, profiles, deformers.
 FR_API FrDigest fr_plant_digest(const FrPlant *plant);

@@ -23,14 +23,15 @@ static const char head[] =
     "| curve | the id of a `<curve>`, a built-in one, or points |\n"
     "| points | `0,0.3 0.4,1 1,0.1` |\n"
     "| vector | `1, 0, 2.5`, or one number for all three |\n"
-    "| colour | `#6b5844` |\n";
+    "| colour | `#6b5844` |\n"
+    "| formula | an expression of the variables that are listed, without random numbers |\n";
 
 static const char *kind_name(FrParamKind kind) {
     static const char *const names[] = {
         [FR_PARAM_NUMBER] = "number", [FR_PARAM_REAL] = "real",     [FR_PARAM_INTEGER] = "integer",
         [FR_PARAM_SWITCH] = "switch", [FR_PARAM_CHOICE] = "choice", [FR_PARAM_TEXT] = "text",
         [FR_PARAM_CURVE] = "curve",   [FR_PARAM_POINTS] = "points", [FR_PARAM_VECTOR] = "vector",
-        [FR_PARAM_COLOUR] = "colour",
+        [FR_PARAM_COLOUR] = "colour", [FR_PARAM_FORMULA] = "formula",
     };
     return names[kind];
 }
@@ -51,7 +52,7 @@ static void append_choices(GString *out, const char *choices) {
 }
 
 static void append_range(GString *out, const FrParam *row) {
-    if (row->kind == FR_PARAM_CHOICE) {
+    if (row->kind == FR_PARAM_CHOICE || row->kind == FR_PARAM_FORMULA) {
         append_choices(out, row->choices);
     } else if (row->min < row->max && row->kind != FR_PARAM_SWITCH &&
                row->kind != FR_PARAM_COLOUR) {

@@ -57,6 +57,7 @@ static const char *type_name(FrParamKind kind) {
         [FR_PARAM_CHOICE] = "xs:token",    [FR_PARAM_TEXT] = "xs:string",
         [FR_PARAM_CURVE] = "xs:string",    [FR_PARAM_POINTS] = "points",
         [FR_PARAM_VECTOR] = "vector",      [FR_PARAM_COLOUR] = "colour",
+        [FR_PARAM_FORMULA] = "xs:string",
     };
     return names[kind];
 }

@@ -27,6 +27,10 @@ static void clear_value(FrParamKind kind, void *field) {
         g_free(((FrPoints *)field)->at);
         *(FrPoints *)field = (FrPoints){0};
         break;
+    case FR_PARAM_FORMULA:
+        fr_expr_unref(*(FrExpr **)field);
+        *(FrExpr **)field = NULL;
+        break;
     case FR_PARAM_REAL:
     case FR_PARAM_INTEGER:
     case FR_PARAM_SWITCH:
@@ -51,6 +55,11 @@ static void own_value(FrParamKind kind, void *field) {
     case FR_PARAM_CURVE:
         if (*(FrCurve **)field != NULL) {
             fr_curve_ref(*(FrCurve **)field);
+        }
+        break;
+    case FR_PARAM_FORMULA:
+        if (*(FrExpr **)field != NULL) {
+            fr_expr_ref(*(FrExpr **)field);
         }
         break;
     case FR_PARAM_POINTS: {

@@ -321,6 +321,38 @@ static bool parse_colour(const FrValueText *value, vec3s *field) {
     return true;
 }
 
+// A formula gives the same wherever it is asked: it may use its own variables only.
+static bool is_pure(const FrValueText *value, const FrParam *param, const FrExpr *expr) {
+    bool is_other = fr_expr_is_random(expr);
+    for (int var = 0; var < FR_VAR_COUNT; var++) {
+        is_other |= fr_expr_uses(expr, (FrVar)var);
+    }
+    if (is_other) {
+        fr_diags_add(value->diags, FR_ERROR, "not-a-formula", value->span,
+                     "a formula may use only the variables %s and no random numbers",
+                     param->choices);
+    }
+    return !is_other;
+}
+
+static bool parse_formula(Cursor *cursor, const FrParam *param, FrExpr **field) {
+    const FrValueText *value = cursor->value;
+    FrExpr *expr = NULL;
+    if (!is_at_end(cursor)) {
+        char **names = g_strsplit(param->choices, " ", -1);
+        expr = fr_expr_compile_with(value->text, value->span, value->scope,
+                                    (const char *const *)names, g_strv_length(names), value->diags);
+        g_strfreev(names);
+        if (expr == NULL || !is_pure(value, param, expr)) {
+            fr_expr_unref(expr);
+            return false;
+        }
+    }
+    fr_expr_unref(*field);
+    *field = expr;
+    return true;
+}
+
 FrStatus fr_value_parse(const FrValueText *value, const FrParam *param, void *field) {
     Cursor cursor = {.value = value, .size = strlen(value->text)};
     bool is_good = true;
@@ -354,6 +386,9 @@ FrStatus fr_value_parse(const FrValueText *value, const FrParam *param, void *fi
         break;
     case FR_PARAM_COLOUR:
         is_good = parse_colour(value, field);
+        break;
+    case FR_PARAM_FORMULA:
+        is_good = parse_formula(&cursor, param, field);
         break;
     }
     return is_good ? FR_OK : FR_ERR_DOCUMENT;

@@ -82,6 +82,14 @@ static void compact_buds(FrPlant *plant, const uint32_t *node_map) {
     g_free(map);
 }
 
+// Where a scope has fallen with all that was in it, its row stays for the indices' sake.
+static void renumber_deformers(FrPlant *plant, const uint32_t *node_map) {
+    for (guint i = 0; i < plant->deformers->len; i++) {
+        FrDeformer *deformer = &g_array_index(plant->deformers, FrDeformer, i);
+        deformer->node = mapped(node_map, deformer->node);
+    }
+}
+
 void fr_plant_compact(FrPlant *plant) {
     uint32_t *node_map = g_new(uint32_t, plant->nodes.count);
     uint32_t *axis_map = g_new(uint32_t, plant->axes.count);
@@ -92,6 +100,7 @@ void fr_plant_compact(FrPlant *plant) {
     fr_columns_compact(&plant->axes, &fr_axis_columns, axis_map, axes_kept);
     compact_organs(plant, node_map);
     compact_buds(plant, node_map);
+    renumber_deformers(plant, node_map);
     g_free(node_map);
     g_free(axis_map);
 }

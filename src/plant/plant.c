@@ -19,6 +19,13 @@ static void component_clear(gpointer data) {
     }
 }
 
+static void deformation_clear(gpointer data) {
+    FrDeformation *deformation = data;
+    for (int axis = 0; axis < 3; axis++) {
+        fr_expr_unref(deformation->map[axis]);
+    }
+}
+
 static void material_unref(gpointer material) {
     fr_material_unref(material);
 }
@@ -31,6 +38,8 @@ FrPlant *fr_plant_new(const char *name) {
     g_array_set_clear_func(plant->profiles, profile_clear);
     plant->materials = g_ptr_array_new_with_free_func(material_unref);
     plant->deformers = g_array_new(FALSE, FALSE, sizeof(FrDeformer));
+    plant->deformations = g_array_new(FALSE, FALSE, sizeof(FrDeformation));
+    g_array_set_clear_func(plant->deformations, deformation_clear);
     plant->components = g_array_new(FALSE, FALSE, sizeof(FrComponent));
     g_array_set_clear_func(plant->components, component_clear);
     plant->shape_index = fr_shape_index_new();
@@ -51,6 +60,7 @@ void fr_plant_free(FrPlant *plant) {
     g_array_unref(plant->profiles);
     g_ptr_array_unref(plant->materials);
     g_array_unref(plant->deformers);
+    g_array_unref(plant->deformations);
     g_array_unref(plant->components);
     g_hash_table_unref(plant->shape_index);
     g_hash_table_unref(plant->profile_index);
@@ -76,6 +86,9 @@ FrPlant *fr_plant_copy(const FrPlant *plant) {
         fr_plant_add_material(copy, g_ptr_array_index(plant->materials, i));
     }
     g_array_append_vals(copy->deformers, plant->deformers->data, plant->deformers->len);
+    for (guint i = 0; i < plant->deformations->len; i++) {
+        fr_plant_add_deformation(copy, &g_array_index(plant->deformations, FrDeformation, i));
+    }
     for (guint i = 0; i < plant->components->len; i++) {
         const FrComponent *component = &g_array_index(plant->components, FrComponent, i);
         fr_plant_add_component(copy, component->id, component->span);

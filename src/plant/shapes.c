@@ -101,3 +101,26 @@ uint32_t fr_plant_add_component(FrPlant *plant, const char *id, FrSpan span) {
     g_array_append_val(plant->components, component);
     return plant->components->len - 1;
 }
+
+uint32_t fr_plant_add_deformation(FrPlant *plant, const FrDeformation *deformation) {
+    FrDeformation own = *deformation;
+    for (int axis = 0; axis < 3; axis++) {
+        own.map[axis] = own.map[axis] != NULL ? fr_expr_ref(own.map[axis]) : NULL;
+    }
+    g_array_append_val(plant->deformations, own);
+    return plant->deformations->len - 1;
+}
+
+uint32_t fr_plant_append_deformers(FrPlant *plant, uint32_t count) {
+    uint32_t first = plant->deformers->len;
+    FrDeformer fresh;
+    memset(&fresh, 0, sizeof fresh);
+    fresh.outer = fresh.deformation = fresh.node = FR_NONE;
+    fresh.rotation = (versors){{0, 0, 0, 1}};
+    fresh.scale = fresh.strength = 1;
+    g_array_set_size(plant->deformers, first + count);
+    for (uint32_t i = first; i < first + count; i++) {
+        g_array_index(plant->deformers, FrDeformer, i) = fresh;
+    }
+    return first;
+}

@@ -150,9 +150,16 @@ static void check_tables(const FrPlant *plant, FrFinding *finding) {
         }
     }
     for (guint i = 0; i < plant->deformers->len && finding->is_valid; i++) {
-        uint32_t outer = g_array_index(plant->deformers, FrDeformer, i).outer;
-        if (outer != FR_NONE && outer >= i) {
-            found(finding, "deformer %u comes before the scope %u around it", i, outer);
+        const FrDeformer *deformer = &g_array_index(plant->deformers, FrDeformer, i);
+        if (deformer->outer != FR_NONE && deformer->outer >= i) {
+            found(finding, "deformer %u comes before the scope %u around it", i, deformer->outer);
+        } else if (deformer->deformation >= plant->deformations->len ||
+                   !is_index(deformer->node, plant->nodes.count)) {
+            found(finding, "deformer %u has a deformation or node out of range", i);
+        } else if (!is_point(deformer->offset) || !is_rotation(deformer->rotation) ||
+                   !isfinite(deformer->scale) || deformer->scale <= 0.0f ||
+                   !isfinite(deformer->strength) || !isfinite(deformer->amount)) {
+            found(finding, "deformer %u has a place, scale, strength or amount that is none", i);
         }
     }
 }

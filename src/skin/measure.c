@@ -61,7 +61,9 @@ static bool thin_out(FrPlan *plan, const FrTube *tube, const FrCollar *collar, u
     for (uint32_t node = tube->first;; node = fr_plan_next(plan, node)) {
         float length = nodes->length[node];
         vec3s heading = fr_frame_heading(nodes->frame[node]);
-        if (!extend(&plan->detail, &band, length, heading, nodes->radius[node])) {
+        // What is straight now may be bent when it is deformed: then every node has its ring.
+        bool is_ended = tube->scope != FR_NONE && band.length > 0.0F;
+        if (is_ended || !extend(&plan->detail, &band, length, heading, nodes->radius[node])) {
             // `band.length` is positive, so there is a node before.
             float least = fr_smallest_length(nodes->position[before], nodes->radius[before]);
             bool is_too_near = band.length < least || along < clear;

@@ -172,7 +172,7 @@ static void copy_shape(const FrShapeMesh *shape, const FrPose *pose, float scale
 }
 
 void fr_write_organs(const FrOrganPlan *organs, size_t begin, size_t end, FrUpAxis up, FrMesh *mesh,
-                     const uint32_t *part_of, FrBox *boxes) {
+                     const uint32_t *part_of, FrBox *boxes, FrDeformNote *notes) {
     const FrPlant *plant = organs->plan->plant;
     for (size_t i = begin; i < end; i++) {
         if (organs->index[i] == UINT64_MAX) {
@@ -186,6 +186,11 @@ void fr_write_organs(const FrOrganPlan *organs, size_t begin, size_t end, FrUpAx
         float scale = plant->organs.scale[i] * (shape->is_foliage ? organs->enlarged : 1.0F);
         FrPose pose = pose_of(plant, organ, up);
         copy_shape(shape, &pose, scale, (uint32_t)organs->vertex[i], out, index);
+        uint32_t scope = fr_plan_scope(organs->plan, plant->organs.deformer[organ]);
+        if (scope != FR_NONE) {
+            fr_deform_vertices(organs->plan, scope, up, out, shape->vertex_count, index,
+                               shape->index_count, notes);
+        }
         fr_box_widen(&boxes[slot], out, shape->vertex_count);
     }
 }

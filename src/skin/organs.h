@@ -26,4 +26,4 @@ FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan);
 void fr_organs_clear(FrOrganPlan *organs);
 /// Writes organs [begin, end).
 void fr_write_organs(const FrOrganPlan *organs, size_t begin, size_t end, FrUpAxis up, FrMesh *mesh,
-                     const uint32_t *part_of, FrBox *boxes);
+                     const uint32_t *part_of, FrBox *boxes, FrDeformNote *notes);

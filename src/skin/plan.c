@@ -124,6 +124,7 @@ static void begin_tube(FrPlan *plan, uint32_t axis, uint32_t from, uint32_t firs
         .from = from,
         .first = first,
         .slot = fr_slot(axes->material[axis]),
+        .scope = fr_plan_scope(plan, axes->deformer[axis]),
         .start = (uint8_t)start,
         .end = FR_END_FLAT,
         .is_point_sets = (axes->flags[axis] & FR_POINT_SETS) != 0,
@@ -150,7 +151,8 @@ static FrTubeStart start_of_axis(const FrPlan *plan, uint32_t axis) {
 static bool add_span(FrPlan *plan, uint32_t axis, uint32_t from, uint32_t first, uint32_t last,
                      bool is_open) {
     FrTube *open = is_open ? &g_array_index(plan->tubes, FrTube, plan->tubes->len - 1) : NULL;
-    if (open == NULL || open->slot != fr_slot(plan->plant->axes.material[axis])) {
+    if (open == NULL || open->slot != fr_slot(plan->plant->axes.material[axis]) ||
+        open->scope != fr_plan_scope(plan, plan->plant->axes.deformer[axis])) {
         FrTubeStart start = open != NULL      ? FR_START_JOINT
                             : from == FR_NONE ? start_of_axis(plan, axis)
                                               : FR_START_FREE;
@@ -254,11 +256,12 @@ static void read_tiles(FrPlan *plan) {
     }
 }
 
-void fr_plan_init(FrPlan *plan, const FrPlant *plant, const FrSkinParams *params,
-                  const FrContext *context) {
+void fr_plan_init(FrPlan *plan, const FrPlant *plant, const FrScopes *scopes,
+                  const FrSkinParams *params, const FrContext *context) {
     *plan = (FrPlan){
         .plant = plant,
         .context = context,
+        .scopes = scopes,
         .detail = fr_detail(params),
         .successor = g_new(uint32_t, plant->axes.count),
         .before = g_new(uint32_t, plant->axes.count),

@@ -7,6 +7,7 @@
 
 #include "frond/skin.h"
 
+#include "plant/deform.h"
 #include "skin/section.h"
 
 #include <math.h>
@@ -44,6 +45,7 @@ typedef struct FrTube {
     uint32_t first, last; ///< nodes
     uint32_t slot;        ///< of its material, see FrPlan.slots
     uint32_t section;     ///< index into FrPlan.sections
+    uint32_t scope;       ///< of a deformation that moves its vertices; FR_NONE
     uint32_t rings;       ///< 0: nothing to draw
     uint8_t collar_rings; ///< FR_START_BRANCH: rings that lie on the parent or lead from it …
     bool has_join;        ///< … followed by a full ring where the branch is clear of its parent
@@ -75,6 +77,7 @@ enum {
 typedef struct FrPlan {
     const FrPlant *plant;
     const FrContext *context;
+    const FrScopes *scopes; ///< of its deformations, NULL if there are none
     FrDetail detail;
     uint32_t *successor; ///< by axis: the one that continues it, FR_NONE
     uint32_t *before;    ///< by axis: the one it continues, FR_NONE
@@ -89,9 +92,10 @@ typedef struct FrPlan {
     uint32_t slots;    ///< materials + 1; slot 0 is the plain default
 } FrPlan;
 
-/// Finds runs and tubes. FR_CANCELLED leaves a plan that can be freed.
-void fr_plan_init(FrPlan *plan, const FrPlant *plant, const FrSkinParams *params,
-                  const FrContext *context);
+/// Finds runs and tubes. FR_CANCELLED leaves a plan that can be freed. `scopes` may be NULL; their
+/// skeletons have been moved in `plant` already.
+void fr_plan_init(FrPlan *plan, const FrPlant *plant, const FrScopes *scopes,
+                  const FrSkinParams *params, const FrContext *context);
 void fr_plan_clear(FrPlan *plan);
 /// Chooses rings and sides and counts the triangles of runs [begin, end). Different runs may be
 /// measured in different threads.
@@ -111,6 +115,18 @@ static inline uint32_t fr_plan_next(const FrPlan *plan, uint32_t node) {
     uint32_t axis = plan->successor[nodes->axis[node]];
     return axis == FR_NONE ? FR_NONE : plan->plant->axes.first[axis];
 }
+
+/// The scope whose deformations move the vertices of what names `deformer`; FR_NONE without any.
+static inline uint32_t fr_plan_scope(const FrPlan *plan, uint32_t deformer) {
+    bool acts = plan->scopes != NULL && deformer != FR_NONE && plan->scopes->has_triangles[deformer];
+    return acts ? deformer : FR_NONE;
+}
+
+/// Deforms vertices that have been written, and turns triangles round where space is turned inside
+/// out. `notes` are by deformation.
+void fr_deform_vertices(const FrPlan *plan, uint32_t scope, FrUpAxis up, FrVertex *vertices,
+                        uint64_t count, uint32_t *indices, uint64_t index_count,
+                        FrDeformNote *notes);
 
 /// Where a tube begins and how thick it is there.
 vec3s fr_tube_origin(const FrPlan *plan, const FrTube *tube);

@@ -41,7 +41,15 @@ typedef struct FrSkinJob {
     FrMesh *mesh;
     uint32_t *wood_part, *organ_part; ///< by slot; FR_NONE without any
     FrBox *boxes;                     ///< by worker, then wood slots, then organ slots
+    FrScopes *scopes;                 ///< of deformations; NULL
+    FrPlant *moved;                   ///< moved by those of the skeleton; NULL
+    uint32_t deformations;
+    FrDeformNote *notes; ///< by worker, then deformation
 } FrSkinJob;
+
+static FrDeformNote *notes_of(const FrSkinJob *job, int worker) {
+    return job->notes + (size_t)worker * job->deformations;
+}
 
 static void measure_range(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
@@ -54,14 +62,16 @@ static void write_runs(void *data, size_t begin, size_t end, int worker) {
     FrBox *boxes = job->boxes + (size_t)worker * 2 * job->plan.slots;
     for (size_t i = begin; i < end; i++) {
         const FrRun *run = &g_array_index(job->plan.runs, FrRun, i);
-        fr_write_run(&job->plan, run, job->up, job->mesh, job->wood_part, boxes);
+        fr_write_run(&job->plan, run, job->up, job->mesh, job->wood_part, boxes,
+                     notes_of(job, worker));
     }
 }
 
 static void write_organs(void *data, size_t begin, size_t end, int worker) {
     FrSkinJob *job = data;
     FrBox *boxes = job->boxes + ((size_t)worker * 2 + 1) * job->plan.slots;
-    fr_write_organs(&job->organs, begin, end, job->up, job->mesh, job->organ_part, boxes);
+    fr_write_organs(&job->organs, begin, end, job->up, job->mesh, job->organ_part, boxes,
+                    notes_of(job, worker));
 }
 
 /// What a slot holds.
@@ -192,12 +202,42 @@ static FrStatus write_all(FrSkinJob *job) {
     return FR_OK;
 }
 
+// Moves the skeleton; what moves triangles waits for them.
+static const FrPlant *begin_deforming(FrSkinJob *job, const FrPlant *plant, int workers) {
+    job->scopes = fr_scopes_new(plant);
+    if (job->scopes == NULL) {
+        return plant;
+    }
+    job->deformations = plant->deformations->len;
+    job->notes = g_new0(FrDeformNote, (size_t)workers * job->deformations);
+    if (job->scopes->has_skeleton) {
+        job->moved = fr_scopes_move_skeleton(job->scopes, job->notes);
+    }
+    fr_scopes_settle(job->scopes);
+    return job->moved != NULL ? job->moved : plant;
+}
+
+static void end_deforming(FrSkinJob *job, const FrPlant *plant, int workers) {
+    if (job->scopes == NULL) {
+        return;
+    }
+    for (int worker = 1; worker < workers; worker++) {
+        fr_deform_join_notes(job->notes, notes_of(job, worker), job->deformations);
+    }
+    fr_deform_report(plant, job->notes, job->plan.context->diags);
+    fr_plant_free(job->moved);
+    fr_scopes_free(job->scopes);
+    g_free(job->notes);
+}
+
 FrStatus fr_skin_plant(const FrPlant *plant, const FrSkinParams *params, FrUpAxis up,
                        const FrContext *context, FrMesh **mesh) {
     *mesh = NULL;
     FrSkinJob job = {.up = up};
     fr_progress_report(context->progress, "skin", 0.0);
-    fr_plan_init(&job.plan, plant, params, context);
+    int workers = fr_pool_threads(context->pool);
+    const FrPlant *posed = begin_deforming(&job, plant, workers);
+    fr_plan_init(&job.plan, posed, job.scopes, params, context);
     fr_parallel_for(context->pool, job.plan.runs->len, RUN_GRAIN, measure_range, &job,
                     context->progress);
     FrStatus status = fr_organs_init(&job.organs, &job.plan);
@@ -226,6 +266,7 @@ FrStatus fr_skin_plant(const FrPlant *plant, const FrSkinParams *params, FrUpAxi
     g_free(job.organ_part);
     fr_organs_clear(&job.organs);
     fr_plan_clear(&job.plan);
+    end_deforming(&job, plant, workers);
     return status;
 }
 

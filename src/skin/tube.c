@@ -169,7 +169,7 @@ static void take_tube(FrSweep *sweep, const FrTube *tube, const FrMesh *mesh,
 }
 
 void fr_write_run(const FrPlan *plan, const FrRun *run, FrUpAxis up, FrMesh *mesh,
-                  const uint32_t *part_of, FrBox *boxes) {
+                  const uint32_t *part_of, FrBox *boxes, FrDeformNote *notes) {
     FrSweep sweep = {.plan = plan, .run = run, .up = up};
     for (uint32_t i = 0; i < run->tube_count; i++) {
         const FrTube *tube = &g_array_index(plan->tubes, FrTube, run->first_tube + i);
@@ -179,8 +179,8 @@ void fr_write_run(const FrPlan *plan, const FrRun *run, FrUpAxis up, FrMesh *mes
         }
         const FrMeshPart *part = &mesh->parts[part_of[tube->slot]];
         take_tube(&sweep, tube, mesh, part);
-        const FrVertex *vertices = sweep.vertex;
-        const uint32_t *indices = sweep.index;
+        FrVertex *vertices = sweep.vertex;
+        uint32_t *indices = sweep.index;
         if (tube->is_point_sets) {
             sweep_point_sets(&sweep);
         } else {
@@ -188,6 +188,10 @@ void fr_write_run(const FrPlan *plan, const FrRun *run, FrUpAxis up, FrMesh *mes
         }
         FR_ASSERT((uint64_t)(sweep.vertex - vertices) == tube->vertices);
         FR_ASSERT((uint64_t)(sweep.index - indices) == tube->indices);
+        if (tube->scope != FR_NONE) {
+            fr_deform_vertices(plan, tube->scope, up, vertices, tube->vertices, indices,
+                               tube->indices, notes);
+        }
         fr_box_widen(&boxes[tube->slot], vertices, tube->vertices);
     }
 }

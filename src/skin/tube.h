@@ -38,4 +38,4 @@ static inline vec3s fr_upright(vec3s v, FrUpAxis up) {
 
 /// Writes every tube of the run at its place in `mesh`. `part_of` and `boxes` go by slot.
 void fr_write_run(const FrPlan *plan, const FrRun *run, FrUpAxis up, FrMesh *mesh,
-                  const uint32_t *part_of, FrBox *boxes);
+                  const uint32_t *part_of, FrBox *boxes, FrDeformNote *notes);

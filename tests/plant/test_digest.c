@@ -8,8 +8,10 @@ static FrPlant *full(void) {
     static const double line[2][2] = {{0, 0}, {1, 1}};
     fr_plant_add_shape(plant, &box);
     fr_plant_add_profile(plant, line, 2, false);
-    FrDeformer deformer = {.outer = FR_NONE};
-    g_array_append_val(plant->deformers, deformer);
+    FrDeformation deformation = {.kind = FR_DEFORM_NOTHING};
+    fr_plant_add_deformation(plant, &deformation);
+    fr_plant_append_deformers(plant, 1);
+    g_array_index(plant->deformers, FrDeformer, 0).deformation = 0;
     fr_plant_append_organs(plant, 4);
     fr_plant_append_buds(plant, 3);
     return plant;
@@ -53,7 +55,7 @@ static void small_tables(void) {
     g_array_index(plant->profiles, FrProfile, 0).is_closed = true;
     FrDigest closed = fr_plant_digest(plant);
     g_assert_cmpuint(closed, !=, other_profile);
-    g_array_index(plant->deformers, FrDeformer, 0).kind = 3;
+    g_array_index(plant->deformers, FrDeformer, 0).strength = 0.5F;
     g_assert_cmpuint(fr_plant_digest(plant), !=, closed);
     fr_plant_free(plant);
 }
