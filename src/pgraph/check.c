@@ -1,4 +1,5 @@
 // What can be wrong with a p-graph before anything is made of it.
+#include "pgraph/choice.h"
 #include "pgraph/prepare.h"
 
 #include <string.h>
@@ -53,6 +54,25 @@ static FrStatus check_recursions(const FrPgraph *graph, const FrRecursions *recu
     return FR_OK;
 }
 
+static FrStatus check_own(const FrPgraph *graph, uint32_t component, FrDiags *diags) {
+    const FrPrototype *prototype = fr_pgraph_prototype(graph, component);
+    if (prototype->kind == FR_COMPONENT_VARIATION) {
+        GArray *weights = fr_weights_new(graph, component, diags);
+        FrStatus status = weights != NULL ? FR_OK : FR_ERR_DOCUMENT;
+        g_clear_pointer(&weights, g_array_unref);
+        return status;
+    }
+    const FrRevoParams *revo = prototype->params;
+    if (prototype->kind == FR_COMPONENT_REVO &&
+        (revo->outline.count < 2 || revo->outline.count > FR_MOST_OUTLINE_POINTS)) {
+        fr_diags_add(diags, FR_ERROR, "wrong-outline", prototype->span,
+                     "the outline of “%s” must be two to %d points radius,height", prototype->id,
+                     FR_MOST_OUTLINE_POINTS);
+        return FR_ERR_DOCUMENT;
+    }
+    return FR_OK;
+}
+
 static FrStatus check_texts(const FrPgraph *graph, FrDiags *diags) {
     FrStatus status = FR_OK;
     for (uint32_t c = 0; c < fr_pgraph_count(graph); c++) {
@@ -66,6 +86,7 @@ static FrStatus check_texts(const FrPgraph *graph, FrDiags *diags) {
             continue;
         }
         fr_flags_clear(&flags);
+        status = check_own(graph, c, diags) == FR_OK ? status : FR_ERR_DOCUMENT;
         bool is_stem = prototype->kind == FR_COMPONENT_HORN || prototype->kind == FR_COMPONENT_TREE;
         const FrStemParams *stem = prototype->params;
         if (is_stem && stem->course == FR_COURSE_PATH) {

@@ -306,13 +306,16 @@ static FrStatus check_least(const FrBuild *build) {
         const FrPrepared *prepared = &expansion->prepared[c];
         const FrNumber *number = NULL;
         is_flagged[c] = !prepared->flags.is_all;
-        if (prepared->kind == FR_COMPONENT_PHIBALL && prepared->params != NULL) {
-            number = &((const FrPhiballParams *)prepared->params)->number;
+        if (prepared->number != NULL) {
+            number = prepared->number;
         } else if (prepared->kind == FR_COMPONENT_TREE) {
             const FrTreeParams *tree = prepared->params;
             number = tree->mode == FR_BRANCHES_BY_NUMBER ? &tree->number : NULL;
         }
         multiplicity[c] = number != NULL ? least_count(number) : 0;
+        if (prepared->number_times > 1) {
+            multiplicity[c] = fr_count_multiply(multiplicity[c], prepared->number_times);
+        }
     }
     uint32_t culprit;
     uint64_t least =

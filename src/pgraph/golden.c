@@ -11,12 +11,12 @@ double fr_golden_polar(double opening, double closing, double before) {
     return acos(height < -1 ? -1 : height > 1 ? 1 : height);
 }
 
-double fr_golden_radius(double n, double area, double opening, double closing) {
-    double zone = 2 * 3.14159265358979323846 * fabs(cos(opening) - cos(closing));
+double fr_golden_radius(double n, double area, double section) {
+    double zone = 2 * 3.14159265358979323846 * section;
     return zone > 1e-12 ? sqrt(n * area / zone) : 0;
 }
 
-double fr_golden_touching_radius(double n, double radius, double opening, double closing) {
+double fr_golden_touching_radius(double n, double radius, double section) {
     double side = 2 * radius / NEAREST;
-    return fr_golden_radius(n, side * side, opening, closing);
+    return fr_golden_radius(n, side * side, section);
 }

@@ -22,7 +22,8 @@ static inline double fr_golden_before(uint32_t i, uint32_t n, bool is_end) {
 static inline double fr_golden_area(double scale, double mean, double influence) {
     return (1.0 - influence) * mean + influence * scale * scale;
 }
-/// Radius of the sphere whose section holds n children of this area.
-double fr_golden_radius(double n, double area, double opening, double closing);
+/// Radius of the surface whose section holds n children of this area. `section` is the section's
+/// area over 2π where the radius is 1; on a sphere cos(opening) − cos(closing).
+double fr_golden_radius(double n, double area, double section);
 /// The same for round children of this radius that just touch their nearest.
-double fr_golden_touching_radius(double n, double radius, double opening, double closing);
+double fr_golden_touching_radius(double n, double radius, double section);

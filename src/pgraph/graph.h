@@ -31,6 +31,13 @@ struct FrPgraph {
     GHashTable *link_keys;      ///< links there are, as int64_t
 };
 
+/// Whether a component multiplies all its links, whatever their kind.
+static inline bool fr_is_spreading(FrComponentKind kind) {
+    return kind == FR_COMPONENT_PHIBALL || kind == FR_COMPONENT_PHYLLOTAXIS ||
+           kind == FR_COMPONENT_HYDRA || kind == FR_COMPONENT_WREATH ||
+           kind == FR_COMPONENT_SCATTER;
+}
+
 static inline const FrPrototype *fr_pgraph_prototype(const FrPgraph *graph, uint32_t component) {
     FR_ASSERT(component < graph->prototypes->len);
     return &g_array_index(graph->prototypes, FrPrototype, component);

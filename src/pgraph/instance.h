@@ -79,11 +79,24 @@ uint32_t fr_instance_children(const FrExpansion *expansion, uint32_t row);
 void fr_instance_make(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
                       FrEvaluator *place);
 
-/// The kinds, from make.c and multiply.c.
+/// A child that is not multiplied, of the instance in `row`.
+FrChild fr_single_child(const FrExpansion *expansion, uint32_t row, FrPose site);
+/// Writes row `organ` of the plant's organs and returns it.
+uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t organ, FrPose pose,
+                        uint32_t shape);
+
+/// The kinds, each from the file of its name.
 void fr_make_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
                   FrEvaluator *place);
-void fr_make_phiball(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
+void fr_make_golden(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
+                    FrEvaluator *place);
+void fr_make_star(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
+                  FrEvaluator *place);
+void fr_make_scatter(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
                      FrEvaluator *place);
+/// How many children a scatter strews, as yet not whole.
+double fr_scatter_count(const FrScatterParams *params, FrEvaluator *evaluator);
+void fr_make_revo(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// Writes the branches of a Tree's stem into the next level from `at` on; returns the row after.
 uint32_t fr_make_branches(const FrExpansion *expansion, uint32_t row, const FrStem *stem,
                           FrPose base, FrEvaluator *evaluator, FrEvaluator *place, uint32_t at);

@@ -18,7 +18,7 @@ static const FrPrepared *prepared_of(const FrExpansion *expansion, uint32_t row)
     return &expansion->prepared[fr_instance_stage(expansion, row)->component];
 }
 
-static FrChild single_child(const FrExpansion *expansion, uint32_t row, FrPose site) {
+FrChild fr_single_child(const FrExpansion *expansion, uint32_t row, FrPose site) {
     const FrLevel *level = &expansion->level;
     return (FrChild){
         .site = site,
@@ -62,8 +62,8 @@ void fr_make_single_children(const FrExpansion *expansion, uint32_t row, FrChild
     }
 }
 
-static uint32_t write_organ(const FrExpansion *expansion, uint32_t row, uint32_t organ, FrPose pose,
-                            uint32_t shape) {
+uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t organ, FrPose pose,
+                        uint32_t shape) {
     FrOrgans *organs = &expansion->plant->organs;
     organs->node[organ] = pose.bearer;
     organs->offset[organ] = pose.offset;
@@ -146,9 +146,9 @@ static void make_leaf(const FrExpansion *expansion, uint32_t row, FrEvaluator *e
     placed.rotation =
         leaf_rotation(expansion, prepared_of(expansion, row)->params, pose, evaluator);
     uint32_t organ = level->organ_count[row];
-    write_organ(expansion, row, organ, placed, leaf_shape(expansion, row, organ, evaluator));
+    fr_write_organ(expansion, row, organ, placed, leaf_shape(expansion, row, organ, evaluator));
     if (fr_instance_stage(expansion, row)->link_count > 0) {
-        fr_make_single_children(expansion, row, single_child(expansion, row, pose),
+        fr_make_single_children(expansion, row, fr_single_child(expansion, row, pose),
                                 level->child_count[row]);
     }
 }
@@ -207,11 +207,11 @@ static void make_simple(const FrExpansion *expansion, uint32_t row, FrEvaluator 
         write_axis(expansion, row, axis, pose, 0.5 * (double)simple->size.x * pose.scale,
                    FR_POINT_SETS | FR_CUT);
     } else if (prepared->shape != FR_NONE) {
-        write_organ(expansion, row, level->organ_count[row], pose, prepared->shape);
+        fr_write_organ(expansion, row, level->organ_count[row], pose, prepared->shape);
         vec3s top = {{0, 0, (float)((double)simple->size.z * pose.scale)}};
         pose = fr_pose_moved(pose, top, identity);
     }
-    FrChild child = single_child(expansion, row, pose);
+    FrChild child = fr_single_child(expansion, row, pose);
     child.axis = axis;
     fr_make_single_children(expansion, row, child, level->child_count[row]);
 }
@@ -226,7 +226,7 @@ static void make_string(const FrExpansion *expansion, uint32_t row, const FrStem
     bool is_stepped = params->course == FR_COURSE_STEPS;
     if (is_stepped) {
         base.scale = fr_stem_radius(stem, 0);
-        write_organ(expansion, row, organ++, base, stem->prepared->shape);
+        fr_write_organ(expansion, row, organ++, base, stem->prepared->shape);
     }
     for (uint32_t k = 0; k < stem->internodes; k++) {
         float length = expansion->plant->nodes.length[first + k];
@@ -236,7 +236,7 @@ static void make_string(const FrExpansion *expansion, uint32_t row, const FrStem
             .rotation = is_stepped ? tip : identity,
             .scale = fr_stem_radius(stem, (k + (is_stepped ? 1 : 0.5)) / stem->internodes),
         };
-        write_organ(expansion, row, organ++, bead, stem->prepared->shape);
+        fr_write_organ(expansion, row, organ++, bead, stem->prepared->shape);
     }
 }
 
@@ -280,12 +280,33 @@ void fr_make_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evalu
     if (level->places[row] > 0) {
         at = fr_make_branches(expansion, row, &stem, pose, evaluator, place, at);
     }
-    FrChild child = single_child(expansion, row, tip);
+    FrChild child = fr_single_child(expansion, row, tip);
     child.joint = stem.internodes > 0 ? FR_JOINT_TIP : FR_JOINT_NONE;
     child.x = 1;
     child.parent_length = (float)(stem.length / pose.scale);
     child.parent_radius = (float)(fr_stem_radius(&stem, 1) / pose.scale);
     fr_make_single_children(expansion, row, child, at);
+}
+
+// What follows in the place of a variation goes on like it.
+static void make_choice(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
+    const FrLevel *level = &expansion->level;
+    const FrStage *stage = fr_instance_stage(expansion, row);
+    FrPose pose = fr_instance_pose(expansion, row, evaluator);
+    if (stage->link_count == 0) {
+        return;
+    }
+    const FrStageLink *link = fr_stage_link(expansion, stage, level->places[row]);
+    const FrFlags *flags = &fr_stage_prepared(expansion, link->stage)->flags;
+    if (!fr_flags_allow(flags, level->i[row], level->n[row])) {
+        return;
+    }
+    FrChild child = fr_single_child(expansion, row, pose);
+    child.key = fr_key_child(level->key[row], FR_NONE - (uint64_t)link->kind);
+    if (level->joint[row] == FR_JOINT_TIP && !pose.is_turned_or_moved) {
+        child.joint = FR_JOINT_TIP;
+    }
+    fr_child_write(expansion, row, link, &child, level->child_count[row]);
 }
 
 void fr_instance_make(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
@@ -303,12 +324,26 @@ void fr_instance_make(const FrExpansion *expansion, uint32_t row, FrEvaluator *e
         make_simple(expansion, row, evaluator);
         break;
     case FR_COMPONENT_PHIBALL:
-        fr_make_phiball(expansion, row, evaluator, place);
+    case FR_COMPONENT_PHYLLOTAXIS:
+        fr_make_golden(expansion, row, evaluator, place);
+        break;
+    case FR_COMPONENT_HYDRA:
+    case FR_COMPONENT_WREATH:
+        fr_make_star(expansion, row, evaluator, place);
+        break;
+    case FR_COMPONENT_SCATTER:
+        fr_make_scatter(expansion, row, evaluator, place);
+        break;
+    case FR_COMPONENT_REVO:
+        fr_make_revo(expansion, row, evaluator);
+        break;
+    case FR_COMPONENT_VARIATION:
+        make_choice(expansion, row, evaluator);
         break;
     default:
         fr_make_single_children(
             expansion, row,
-            single_child(expansion, row, fr_instance_pose(expansion, row, evaluator)),
+            fr_single_child(expansion, row, fr_instance_pose(expansion, row, evaluator)),
             expansion->level.child_count[row]);
     }
 }

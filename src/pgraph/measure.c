@@ -1,11 +1,18 @@
 // Counting what an instance makes before anything is made.
+#include "pgraph/choice.h"
 #include "pgraph/instance.h"
 
 #include <math.h>
 
-static uint32_t count_phiball(const FrPrepared *prepared, FrEvaluator *evaluator) {
-    const FrPhiballParams *phiball = prepared->params;
-    return (uint32_t)floor(fr_value(evaluator, &phiball->number, FR_PHIBALL_number) + 0.5);
+// More than any limit allows.
+#define MOST_CHILDREN 4e9
+
+static uint32_t count_children(const FrPrepared *prepared, FrEvaluator *evaluator) {
+    double count = prepared->kind == FR_COMPONENT_SCATTER
+                       ? fr_scatter_count(prepared->params, evaluator)
+                       : fr_value(evaluator, prepared->number, prepared->number_parameter);
+    count = floor(count + 0.5) * prepared->number_times;
+    return count < MOST_CHILDREN ? (uint32_t)count : (uint32_t)MOST_CHILDREN;
 }
 
 static void measure_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
@@ -51,8 +58,19 @@ void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator
         }
         break;
     case FR_COMPONENT_PHIBALL:
+    case FR_COMPONENT_PHYLLOTAXIS:
+    case FR_COMPONENT_HYDRA:
+    case FR_COMPONENT_WREATH:
+    case FR_COMPONENT_SCATTER:
         fr_instance_enter(expansion, row, evaluator);
-        level->places[row] = count_phiball(prepared, evaluator);
+        level->places[row] = prepared->bears ? count_children(prepared, evaluator) : 0;
+        break;
+    case FR_COMPONENT_REVO:
+        level->organ_count[row] = prepared->shape != FR_NONE;
+        break;
+    case FR_COMPONENT_VARIATION:
+        fr_instance_enter(expansion, row, evaluator);
+        level->places[row] = fr_choose(expansion, row, evaluator);
         break;
     default:
         break;
@@ -65,6 +83,9 @@ uint32_t fr_instance_children(const FrExpansion *expansion, uint32_t row) {
     FrComponentKind kind = expansion->prepared[stage->component].kind;
     uint32_t count = 0;
     for (uint32_t k = 0; k < stage->link_count; k++) {
+        if (kind == FR_COMPONENT_VARIATION && k != level->places[row]) {
+            continue;
+        }
         const FrStageLink *link = fr_stage_link(expansion, stage, k);
         const FrFlags *flags = &fr_stage_prepared(expansion, link->stage)->flags;
         if (fr_link_is_multiplied(kind, link->kind)) {

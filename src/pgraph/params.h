@@ -118,27 +118,6 @@
     X(NUMBER, phototropism, "0", 0, 1, "", "", "turns its upper face to the light: 1 fully")       \
     X(NUMBER, gravitropism, "0", -1, 1, "", "", "hangs down: 1 fully; negative: stands up")
 
-/// From child_scale on, evaluated for each child.
-#define FR_PHIBALL_PARAMS(X)                                                                       \
-    X(NUMBER, number, "100", 0, 1000000, "", "", "children")                                       \
-    X(CHOICE, radius_mode, "absolute", 0, 0, "", "absolute by-area touching",                      \
-      "radius given, or such that children of child-area, or child-radius, just fit")              \
-    X(NUMBER, radius, "0.1", 0, 10000, "m", "", "radius of the sphere")                            \
-    X(NUMBER, child_area, "0.0001", 0, 10000, "m2", "", "area of a child, for by-area")            \
-    X(NUMBER, child_radius, "0.005", 0, 10000, "m", "", "radius of a child, for touching")         \
-    X(NUMBER, opening, "0", 0, 180, "deg", "", "polar angle where the section begins")             \
-    X(NUMBER, closing, "180", 0, 180, "deg", "", "polar angle where the section ends")             \
-    X(NUMBER, divergence, "222.49223594996", -3600, 3600, "deg", "", "turn between children")      \
-    X(CHOICE, handedness, "left", 0, 0, "", "left right", "sense of the turn; right mirrors")      \
-    X(CHOICE, placement, "midpoint", 0, 0, "", "midpoint end",                                     \
-      "child in the middle of its zone, or at its end")                                            \
-    X(NUMBER, influence, "0", 0, 1, "", "", "how much larger children take more room")             \
-    X(CHOICE, anchor, "centre", 0, 0, "", "centre pole", "what sits where it is attached")         \
-    X(NUMBER, child_scale, "1", 0.000001, 1000, "", "", "size of each child")                      \
-    X(NUMBER, tilt, "0", -360, 360, "deg", "", "turn of each away from the axis")                  \
-    X(NUMBER, roll, "0", -36000, 36000, "deg", "", "turn of each about itself")                    \
-    X(NUMBER, push, "0", -10000, 10000, "m", "", "how far each stands off the sphere")
-
 #define FR_SIMPLE_PARAMS(X)                                                                        \
     X(CHOICE, primitive, "box", 0, 0, "",                                                          \
       "tube area box sphere cone cylinder torus square circle triangle none",                      \
@@ -172,27 +151,19 @@ typedef struct FrLeafParams {
     FR_LEAF_PARAMS(FR_PARAM_FIELD)
 } FrLeafParams;
 
-typedef struct FrPhiballParams {
-    FR_BASIC_PARAMS(FR_PARAM_FIELD)
-    FR_PHIBALL_PARAMS(FR_PARAM_FIELD)
-} FrPhiballParams;
-
 /// Index of each row in its table: the purpose of its random draws.
 #define FR_BASIC_ID(kind, field, ...) FR_BASIC_##field,
 #define FR_STEM_ID(kind, field, ...) FR_STEM_##field,
 #define FR_TREE_ID(kind, field, ...) FR_TREE_##field,
 #define FR_LEAF_ID(kind, field, ...) FR_LEAF_##field,
-#define FR_PHIBALL_ID(kind, field, ...) FR_PHIBALL_##field,
 enum { FR_BASIC_PARAMS(FR_BASIC_ID) FR_BASIC_COUNT };
 enum { FR_STEM_BEFORE = FR_BASIC_COUNT - 1, FR_STEM_PARAMS(FR_STEM_ID) FR_STEM_COUNT };
 enum { FR_TREE_BEFORE = FR_STEM_COUNT - 1, FR_BRANCHING_PARAMS(FR_TREE_ID) FR_TREE_COUNT };
 enum { FR_LEAF_BEFORE = FR_BASIC_COUNT - 1, FR_LEAF_PARAMS(FR_LEAF_ID) FR_LEAF_COUNT };
-enum { FR_PHIBALL_BEFORE = FR_BASIC_COUNT - 1, FR_PHIBALL_PARAMS(FR_PHIBALL_ID) FR_PHIBALL_COUNT };
 #undef FR_BASIC_ID
 #undef FR_STEM_ID
 #undef FR_TREE_ID
 #undef FR_LEAF_ID
-#undef FR_PHIBALL_ID
 
 // The values of the CHOICE rows, in their order.
 enum { FR_COURSE_GROWN, FR_COURSE_PATH, FR_COURSE_STEPS };
@@ -214,7 +185,5 @@ enum {
     FR_PHYLLOTAXIS_CUSTOM
 };
 enum { FR_PLACE_AUTO, FR_PLACE_ON_AXIS, FR_PLACE_ON_SURFACE };
-enum { FR_RADIUS_ABSOLUTE, FR_RADIUS_BY_AREA, FR_RADIUS_TOUCHING };
-enum { FR_HAND_LEFT, FR_HAND_RIGHT };
-enum { FR_PLACEMENT_MIDPOINT, FR_PLACEMENT_END };
-enum { FR_ANCHOR_CENTRE, FR_ANCHOR_POLE };
+
+#include "pgraph/params_spread.h"

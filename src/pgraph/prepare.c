@@ -1,5 +1,8 @@
 #include "pgraph/prepare.h"
 
+#include "pgraph/choice.h"
+#include "pgraph/revolved.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -41,6 +44,23 @@ static void note_variation(FrPrepared *made, const FrParamTable *table) {
     made->is_unmoved = is_always(&basic->translate_x, 0) && is_always(&basic->translate_y, 0) &&
                        is_always(&basic->translate_z, 0) && is_always(&basic->rotate_x, 0) &&
                        is_always(&basic->rotate_y, 0) && is_always(&basic->rotate_z, 0);
+}
+
+// The number of children, where it is given.
+static void note_number(FrPrepared *made) {
+    made->number_times = 1;
+    if (made->kind == FR_COMPONENT_PHIBALL || made->kind == FR_COMPONENT_PHYLLOTAXIS) {
+        made->number = &((const FrGoldenParams *)made->params)->number;
+        made->number_parameter = FR_GOLDEN_number;
+    } else if (made->kind == FR_COMPONENT_HYDRA || made->kind == FR_COMPONENT_WREATH) {
+        const FrRingParams *ring = made->params;
+        made->number = &ring->number;
+        made->number_parameter = FR_RING_number;
+        made->number_times = (uint32_t)ring->rings;
+    } else if (made->kind == FR_COMPONENT_SCATTER) {
+        const FrScatterParams *scatter = made->params;
+        made->number = scatter->mode == FR_SCATTER_BY_NUMBER ? &scatter->number : NULL;
+    }
 }
 
 static int compare_names(const void *a, const void *b) {
@@ -297,6 +317,7 @@ static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t compon
             fr_plant_add_material(plant, g_ptr_array_index(graph->materials, material));
     }
     note_variation(made, fr_pgraph_table(prototype->kind));
+    note_number(made);
     switch (prototype->kind) {
     case FR_COMPONENT_SIMPLE: {
         const FrSimpleParams *simple = prototype->params;
@@ -311,6 +332,16 @@ static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t compon
     case FR_COMPONENT_HORN:
     case FR_COMPONENT_TREE:
         prepare_stem(made, prototype, plant);
+        break;
+    case FR_COMPONENT_PHYLLOTAXIS:
+        made->revolved = fr_revolved_new(prototype->params);
+        break;
+    case FR_COMPONENT_REVO:
+        fr_prepare_revo(made, plant);
+        break;
+    case FR_COMPONENT_VARIATION:
+        made->weights = fr_weights_new(graph, component, NULL);
+        FR_ASSERT(made->weights != NULL);
         break;
     case FR_COMPONENT_LEAF:
         prepare_leaf(made, graph, prototype, plant, faults);
@@ -341,8 +372,11 @@ FrStatus fr_prepare(FrPrepared **prepared_out, const FrPgraph *graph,
     for (uint32_t k = 0; k < graph->links->len; k++) {
         const FrPgraphLink *link = fr_pgraph_link_at(graph, k);
         bool is_branch = link->kind == FR_LINK_BRANCH;
-        prepared[link->from].bears |= prepared[link->from].kind == FR_COMPONENT_PHIBALL ||
-                                      (prepared[link->from].kind == FR_COMPONENT_TREE && is_branch);
+        FrPrepared *from = &prepared[link->from];
+        from->bears |=
+            fr_is_spreading(from->kind) || (from->kind == FR_COMPONENT_TREE && is_branch);
+        // A variation of stems begins where a stem does.
+        from->is_stem |= from->kind == FR_COMPONENT_VARIATION && prepared[link->to].is_stem;
     }
     return FR_OK;
 }
@@ -352,6 +386,8 @@ void fr_prepared_free(FrPrepared *prepared, uint32_t count) {
         fr_flags_clear(&prepared[c].flags);
         g_free(prepared[c].variants);
         g_free(prepared[c].density);
+        fr_revolved_free(prepared[c].revolved);
+        g_clear_pointer(&prepared[c].weights, g_array_unref);
         if (prepared[c].path != NULL) {
             g_array_unref(prepared[c].path);
         }

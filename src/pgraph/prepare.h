@@ -8,6 +8,8 @@
 #include "pgraph/places.h"
 #include "pgraph/recursion.h"
 
+enum { FR_MOST_OUTLINE_POINTS = 4096 }; ///< of a Revo
+
 /// How a leaf comes by its shape.
 typedef enum FrShapeChoice {
     FR_SHAPE_SAME,      ///< one for all
@@ -36,6 +38,12 @@ typedef struct FrPrepared {
     double bend_factor;                ///< how far the stem turns for each degree of curvature
     FrDensity *density;                ///< of a tree with a density curve; owned
     GArray *path;                      ///< of a stem along a path: vec3s, ends of internodes; owned
+    const FrNumber *number;            ///< of children, of a multiplier that has one; NULL
+    uint32_t number_parameter;         ///< … its row
+    uint32_t number_times;             ///< … and how often it has so many
+    struct FrRevolved *revolved;       ///< surface of a phyllotaxis; owned
+    GArray *weights;                   ///< FrWeight, of a variation; owned
+    double low, top;                   ///< of a revo: its lowest point; where its outline ends
 } FrPrepared;
 
 /// One for each component that is reached, of a graph that has passed its check. Adds profiles,
@@ -58,5 +66,7 @@ GArray *fr_stem_path_points(const FrPrototype *prototype, FrDiags *diags);
 /// All checks; without warnings for graphs that are about to be built.
 FrStatus fr_pgraph_check_all(const FrPgraph *graph, const FrRecursions *recursions, FrDiags *diags,
                              bool with_warnings);
+/// Adds the shape of a Revo to the plant.
+void fr_prepare_revo(FrPrepared *made, FrPlant *plant);
 /// Half outline of a leaf form (FrLeafParams.outline) as a profile of the plant; FR_NONE: elliptic.
 uint32_t fr_leaf_outline(FrPlant *plant, int outline);

@@ -19,8 +19,27 @@ static const FrParam tree_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_STEM_PARAMS
 static const FrParam leaf_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_LEAF_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
 #define FR_PARAM_STRUCT FrPhiballParams
-static const FrParam phiball_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW)
+static const FrParam phiball_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_GOLDEN_PARAMS(FR_PARAM_ROW)
                                            FR_PHIBALL_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrPhyllotaxisParams
+static const FrParam phyllotaxis_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_GOLDEN_PARAMS(
+    FR_PARAM_ROW) FR_PHYLLOTAXIS_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrRingParams
+static const FrParam hydra_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_RING_PARAMS(FR_PARAM_ROW)};
+#define wreath_rows hydra_rows
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrScatterParams
+static const FrParam scatter_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW)
+                                           FR_SCATTER_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrVariationParams
+static const FrParam variation_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW)
+                                             FR_VARIATION_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrRevoParams
+static const FrParam revo_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_REVO_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
 
 #define TABLE(name, kind, type, text)                                                              \
@@ -38,6 +57,14 @@ static const FrParamTable tables[FR_COMPONENT_COUNT] = {
     TABLE(leaf, LEAF, FrLeafParams, "a leaf, petal or sepal"),
     TABLE(phiball, PHIBALL, FrPhiballParams,
           "multiplies what follows, spread over a sphere by the golden section"),
+    TABLE(revo, REVO, FrRevoParams, "a surface of revolution: a vase, a fruit, a bud"),
+    TABLE(hydra, HYDRA, FrRingParams, "multiplies what follows, as the arms of a star"),
+    TABLE(wreath, WREATH, FrRingParams, "multiplies what follows, as the candles of a wreath"),
+    TABLE(phyllotaxis, PHYLLOTAXIS, FrPhyllotaxisParams,
+          "multiplies what follows, spread over a surface of revolution by the golden section"),
+    TABLE(scatter, SCATTER, FrScatterParams,
+          "multiplies what follows, strewn evenly by chance over a disc, square or ring"),
+    TABLE(variation, VARIATION, FrVariationParams, "makes one of what follows"),
 };
 
 const FrParamTable *fr_pgraph_table(FrComponentKind kind) {

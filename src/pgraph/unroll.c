@@ -240,6 +240,8 @@ uint64_t fr_unrolled_least(const FrUnrolled *unrolled, const FrPgraph *graph,
             uint32_t to = g_array_index(unrolled->stages, FrStage, link.stage).component;
             // Flags may leave out any of the children: counted as none.
             times = is_flagged[to] ? 0 : times;
+            // A variation may follow another link.
+            times = kind == FR_COMPONENT_VARIATION && stage->link_count > 1 ? 0 : times;
             instances[link.stage] =
                 fr_count_add(instances[link.stage], fr_count_multiply(made, times));
         }

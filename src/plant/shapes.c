@@ -5,7 +5,7 @@
 #include <string.h>
 
 // Shapes are hashed and compared as bytes: every byte of them must be one that was set.
-_Static_assert(sizeof(FrShape) == 5 * 4 + 14 * 4 + 2 * 2, "FrShape has padding");
+_Static_assert(sizeof(FrShape) == 6 * 4 + 14 * 4 + 2 * 2, "FrShape has padding");
 
 static guint shape_hash(gconstpointer shape) {
     return (guint)fr_digest(0, shape, sizeof(FrShape));
@@ -45,6 +45,7 @@ GHashTable *fr_profile_index_new(void) {
 uint32_t fr_plant_add_shape(FrPlant *plant, const FrShape *shape) {
     // Parameters that the kind does not use must not tell two shapes apart.
     FrShape key = *shape;
+    key.outline = shape->kind == FR_SHAPE_REVOLUTION ? shape->outline : 0;
     if (shape->kind == FR_SHAPE_BLADE) {
         key.size = (vec3s){{0, 0, 0}};
         key.detail = 0;

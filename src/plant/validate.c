@@ -147,6 +147,9 @@ static void check_tables(const FrPlant *plant, FrFinding *finding) {
              !is_index(blade->along_curve, plant->profiles->len) ||
              !is_index(blade->across_curve, plant->profiles->len))) {
             found(finding, "shape %u has an outline or curve out of range", i);
+        } else if (shape->kind == FR_SHAPE_REVOLUTION && shape->outline >= plant->profiles->len) {
+            found(finding, "shape %u has outline %u of %u", i, shape->outline,
+                  plant->profiles->len);
         }
     }
     for (guint i = 0; i < plant->deformers->len && finding->is_valid; i++) {

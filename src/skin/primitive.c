@@ -166,6 +166,34 @@ static void lay_flat_kind(FrShapeMesh *mesh, FrShapeKind kind, const vec3s *size
     lay_flat(mesh, size, (const double(*)[2])corners, around);
 }
 
+void fr_shape_triangles(FrShapeMesh *mesh, const FrPlant *plant, const FrShape *shape) {
+    mesh->is_foliage = true;
+    if (shape->detail >= plant->profiles->len) {
+        return;
+    }
+    const FrProfile *profile = &g_array_index(plant->profiles, FrProfile, shape->detail);
+    for (uint32_t i = 0; i + 6 <= profile->count; i += 6) {
+        vec3s corner[3];
+        for (uint32_t k = 0; k < 3; k++) {
+            const double *xy = profile->points[i + 2 * k], *z = profile->points[i + 2 * k + 1];
+            corner[k] = (vec3s){{(float)xy[0] * shape->size.x, (float)xy[1] * shape->size.y,
+                                 (float)z[0] * shape->size.z}};
+        }
+        vec3s normal = glms_vec3_cross(glms_vec3_sub(corner[1], corner[0]),
+                                       glms_vec3_sub(corner[2], corner[0]));
+        float length = glms_vec3_norm(normal);
+        if (!(length > 0)) {
+            continue;
+        }
+        normal = glms_vec3_scale(normal, 1 / length);
+        uint32_t first = mesh->vertex_count;
+        for (uint32_t k = 0; k < 3; k++) {
+            fr_shape_vertex(mesh, corner[k], normal, corner[k].x, -corner[k].z);
+        }
+        fr_shape_triangle(mesh, first, first + 1, first + 2);
+    }
+}
+
 void fr_shape_primitive(FrShapeMesh *mesh, const FrShape *shape, const FrDetail *detail) {
     vec3s size = shape->size;
     for (int k = 0; k < 3; k++) {
@@ -193,11 +221,14 @@ void fr_shape_primitive(FrShapeMesh *mesh, const FrShape *shape, const FrDetail 
         lay_grid(mesh, &(FrGrid){around, MAX(half, 3), on_torus}, &size);
         break;
     case FR_SHAPE_BLADE:
+    case FR_SHAPE_REVOLUTION:
     case FR_SHAPE_SQUARE:
     case FR_SHAPE_CIRCLE:
     case FR_SHAPE_TRIANGLE:
         mesh->is_foliage = true;
         lay_flat_kind(mesh, shape->kind, &size, around);
         break;
+    case FR_SHAPE_MESH:
+        break; // fr_shape_triangles() makes it
     }
 }

@@ -55,6 +55,10 @@ void fr_shape_mesh_init(FrShapeMesh *mesh, const FrPlant *plant, uint32_t shape,
     const FrShape *form = &g_array_index(plant->shapes, FrShape, shape);
     if (form->kind == FR_SHAPE_BLADE) {
         fr_shape_blade(mesh, plant, &form->blade, detail);
+    } else if (form->kind == FR_SHAPE_REVOLUTION) {
+        fr_shape_revolution(mesh, plant, form, detail);
+    } else if (form->kind == FR_SHAPE_MESH) {
+        fr_shape_triangles(mesh, plant, form);
     } else {
         fr_shape_primitive(mesh, form, detail);
     }

@@ -33,4 +33,8 @@ void fr_blade_segments(const FrBlade *blade, const FrDetail *detail, uint32_t *a
                        uint32_t *across);
 void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
                     const FrDetail *detail);
+void fr_shape_revolution(FrShapeMesh *mesh, const FrPlant *plant, const FrShape *shape,
+                         const FrDetail *detail);
 void fr_shape_primitive(FrShapeMesh *mesh, const FrShape *shape, const FrDetail *detail);
+/// FR_SHAPE_MESH: the triangles of a profile.
+void fr_shape_triangles(FrShapeMesh *mesh, const FrPlant *plant, const FrShape *shape);

@@ -121,7 +121,7 @@ static void golden_influence(void) {
 }
 
 static void golden_radius(void) {
-    g_assert_cmpfloat_with_epsilon(fr_golden_radius(300, 4e-4, 0, G_PI / 3), 0.195441, 0.5e-6);
+    g_assert_cmpfloat_with_epsilon(fr_golden_radius(300, 4e-4, 0.5), 0.195441, 0.5e-6);
     Built built = build("phiball P number=300;radius-mode=by-area;child-area=.0004;closing=60\n"
                         "leaf L\nP - L");
     g_assert_cmpfloat_with_epsilon(glms_vec3_norm(built.plant->organs.offset[7]), 0.195441, 1e-6);

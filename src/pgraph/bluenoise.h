@@ -1,0 +1,17 @@
+/// @file bluenoise.h
+/// Points strewn over a surface so that none are near each other.
+///
+/// After: D. Mitchell. Spectrally Optimal Sampling for Distribution Ray Tracing. SIGGRAPH 1991
+/// (best candidate). Point i is the best of some candidates, and these are drawn by key and i: the
+/// first points do not depend on how many follow.
+#pragma once
+
+#include "frond/random.h"
+
+typedef enum FrStrewnForm { FR_STREWN_DISC, FR_STREWN_SQUARE, FR_STREWN_RING } FrStrewnForm;
+
+/// Fills `points` with `count` points of a disc or ring of radius 1 or the square from −1 to 1.
+/// `inner` is the radius of a ring's hole; `candidates` ≥ 1, of which 1 leaves all to chance.
+/// Cost: count · candidates · log(count).
+void fr_bluenoise(double (*points)[2], uint32_t count, FrStrewnForm form, double inner,
+                  uint32_t candidates, FrKey key);
