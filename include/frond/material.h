@@ -60,12 +60,22 @@ typedef struct FrMaterialParams {
 
 FR_API const FrParamTable *fr_material_table(void);
 
+typedef enum FrMap {
+    FR_MAP_COLOUR,    ///< RGB or RGBA, sRGB; colour dilated under transparent pixels
+    FR_MAP_NORMAL,    ///< RGB, linear, +Y up; whoever shows it multiplies x and y by `relief`
+    FR_MAP_ROUGHNESS, ///< RGB, linear: G multiplies `roughness`, B metallic 0, R 255
+    FR_MAP_COUNT
+} FrMap;
+
 /// A material and its pictures, loaded or made on first use. Reference counted, thread-safe.
 typedef struct FrMaterial FrMaterial;
 
 /// Takes a copy of `params`. File names are relative to `folder`.
 FR_API FrMaterial *fr_material_new(const char *name, const FrMaterialParams *params,
                                    const char *folder, FrSpan span);
+/// Where a document names the file of that map: what errors about the picture point at, instead of
+/// the material's span. Before the material is shared.
+FR_API void fr_material_set_place(FrMaterial *material, FrMap map, FrSpan place);
 FR_API FrMaterial *fr_material_ref(FrMaterial *material);
 FR_API void fr_material_unref(FrMaterial *material);
 FR_API const char *fr_material_name(const FrMaterial *material);
@@ -74,13 +84,6 @@ FR_API const FrMaterialParams *fr_material_params(const FrMaterial *material);
 /// What multiplies the colour picture, sRGB: `colour`; but white for a picture made by the program,
 /// which holds `colour` already.
 FR_API vec3s fr_material_tint(const FrMaterial *material);
-
-typedef enum FrMap {
-    FR_MAP_COLOUR,    ///< RGB or RGBA, sRGB; colour dilated under transparent pixels
-    FR_MAP_NORMAL,    ///< RGB, linear, +Y up; whoever shows it multiplies x and y by `relief`
-    FR_MAP_ROUGHNESS, ///< RGB, linear: G multiplies `roughness`, B metallic 0, R 255
-    FR_MAP_COUNT
-} FrMap;
 
 /// True if the material has that picture; makes and reads nothing.
 FR_API bool fr_material_has(const FrMaterial *material, FrMap map);

@@ -1,6 +1,10 @@
 /// `<material>`: its picture files must be there, named relative to the document.
 #include "document/reader.h"
 
+static const char *const map_attributes[FR_MAP_COUNT] = {[FR_MAP_COLOUR] = "picture",
+                                                         [FR_MAP_NORMAL] = "normal-map",
+                                                         [FR_MAP_ROUGHNESS] = "roughness-map"};
+
 static void check_file(FrReader *reader, uint32_t node, const char *attribute, const char *file) {
     if (file == NULL) {
         return;
@@ -23,15 +27,22 @@ static void read_material(FrReader *reader, uint32_t node, const char *id) {
     FrMaterialParams params;
     fr_params_init(table, &params);
     fr_read_attributes(reader, node, FR_ELEMENT_MATERIAL, &params);
-    check_file(reader, node, "picture", params.picture);
-    check_file(reader, node, "normal-map", params.normal_map);
-    check_file(reader, node, "roughness-map", params.roughness_map);
+    const char *files[FR_MAP_COUNT] = {[FR_MAP_COLOUR] = params.picture,
+                                       [FR_MAP_NORMAL] = params.normal_map,
+                                       [FR_MAP_ROUGHNESS] = params.roughness_map};
+    for (int map = 0; map < FR_MAP_COUNT; map++) {
+        check_file(reader, node, map_attributes[map], files[map]);
+    }
     if (g_hash_table_contains(reader->material_ids, id)) {
         fr_read_error(reader, "duplicate-id", fr_read_value_place(reader, node, "id"),
                       "there is a material '%s' already", id);
     } else {
         FrSpan span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
         FrMaterial *material = fr_material_new(id, &params, reader->document->folder, span);
+        for (FrMap map = 0; map < FR_MAP_COUNT; map++) {
+            FrXmlRange place = fr_read_value_place(reader, node, map_attributes[map]);
+            fr_material_set_place(material, map, fr_xml_span(reader->tree, place));
+        }
         g_ptr_array_add(reader->document->materials, material);
         g_hash_table_insert(reader->material_ids, g_strdup(id), material);
     }

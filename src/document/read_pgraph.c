@@ -8,17 +8,40 @@ typedef struct GraphReader {
     GHashTable *materials;  ///< set of the FrMaterial * that the graph knows
 } GraphReader;
 
-/// Hands the graph the materials that a component names; it reports those that do not exist.
-static void add_materials(GraphReader *graph, const FrParamTable *table, const void *params) {
+static void report_unknown_material(FrReader *reader, uint32_t node, const FrParam *row,
+                                    const char *id) {
+    const GPtrArray *materials = reader->document->materials;
+    uint32_t count = fr_read_candidates(materials->len);
+    const char **names = g_new(const char *, count + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        names[i] = fr_material_name(g_ptr_array_index(materials, i));
+    }
+    char *hint = fr_read_hint(reader, id, names, count);
+    char *attribute = fr_param_attribute(row);
+    fr_read_error(reader, "unknown-material", fr_read_value_place(reader, node, attribute),
+                  "there is no material '%.64s'%s", id, hint);
+    g_free(attribute);
+    g_free(hint);
+    g_free(names);
+}
+
+/// Hands the graph the materials that a component names.
+static void add_materials(GraphReader *graph, uint32_t node, const FrParamTable *table,
+                          const void *params) {
+    FrReader *reader = graph->reader;
     for (size_t i = 0; i < table->count; i++) {
         const FrParam *row = &table->rows[i];
         if (row->kind != FR_PARAM_TEXT || !g_str_has_suffix(row->name, "material")) {
             continue;
         }
         const char *id = *(char *const *)(const void *)((const char *)params + row->offset);
-        FrMaterial *material =
-            id == NULL ? NULL : g_hash_table_lookup(graph->reader->material_ids, id);
-        if (material != NULL && g_hash_table_add(graph->materials, material)) {
+        if (id == NULL || *id == '\0') {
+            continue;
+        }
+        FrMaterial *material = g_hash_table_lookup(reader->material_ids, id);
+        if (material == NULL) {
+            report_unknown_material(reader, node, row, id);
+        } else if (g_hash_table_add(graph->materials, material)) {
             fr_pgraph_add_material(graph->graph, material);
         }
     }
@@ -42,7 +65,7 @@ static void read_component(GraphReader *graph, uint32_t node, FrElementId elemen
     g_hash_table_insert(graph->components, id, GUINT_TO_POINTER(component + 1));
     void *params = fr_pgraph_params(graph->graph, component);
     fr_read_attributes(reader, node, element, params);
-    add_materials(graph, fr_element(element).table, params);
+    add_materials(graph, node, fr_element(element).table, params);
 }
 
 /// The component an attribute of a link names, FR_NONE with an error.
@@ -55,7 +78,7 @@ static uint32_t find_component(GraphReader *graph, uint32_t node, const char *at
     if (found != 0) {
         return found - 1;
     }
-    uint32_t count = fr_pgraph_count(graph->graph);
+    uint32_t count = fr_read_candidates(fr_pgraph_count(graph->graph));
     const char **names = g_new(const char *, count + 1);
     for (uint32_t i = 0; i < count; i++) {
         names[i] = fr_pgraph_id(graph->graph, i);
@@ -114,6 +137,10 @@ void fr_read_pgraph(FrReader *reader, uint32_t node, FrPgraph *definition) {
     reader->status = FR_OK;
     fr_read_check_children(reader, node, FR_ELEMENT_PGRAPH);
     read_parts(&graph, node);
+    if (reader->status == FR_OK && fr_pgraph_count(definition) == 0) {
+        fr_read_error(reader, "no-component", reader->tree->nodes[node].name,
+                      "this <pgraph> has no component, so its plant is empty");
+    }
     // What is wrong as a whole may only follow from what was reported already.
     if (reader->status == FR_OK) {
         fr_read_note(reader, fr_pgraph_check(definition, reader->diags));

@@ -6,11 +6,12 @@ static void check_plant_exists(FrReader *reader, uint32_t node, const char *id) 
         return;
     }
     const GPtrArray *plants = reader->document->plants;
-    const char **names = g_new(const char *, plants->len + 1);
-    for (guint i = 0; i < plants->len; i++) {
+    uint32_t count = fr_read_candidates(plants->len);
+    const char **names = g_new(const char *, count + 1);
+    for (uint32_t i = 0; i < count; i++) {
         names[i] = ((const FrPlantDef *)g_ptr_array_index(plants, i))->id;
     }
-    char *hint = fr_read_hint(reader, id, names, plants->len);
+    char *hint = fr_read_hint(reader, id, names, count);
     fr_read_error(reader, "unknown-plant", fr_read_value_place(reader, node, "plant"),
                   "there is no plant '%.64s'%s", id, hint);
     g_free(hint);

@@ -6,7 +6,6 @@
 enum {
     LONGEST_ID = 64, // bytes
     HINTS = 20,
-    HINT_CANDIDATES = 1000,
 };
 
 void fr_reader_open(FrReader *reader, FrDocument *document, FrDiags *diags) {
@@ -42,7 +41,7 @@ char *fr_read_hint(FrReader *reader, const char *name, const char *const *candid
     const char *near = NULL;
     if (reader->hints < HINTS) {
         reader->hints++;
-        near = fr_nearest_name(name, candidates, MIN(count, HINT_CANDIDATES));
+        near = fr_nearest_name(name, candidates, count);
     }
     return near == NULL ? g_strdup("") : g_strdup_printf("; did you mean '%s'?", near);
 }

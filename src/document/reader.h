@@ -56,6 +56,10 @@ void fr_read_attributes(FrReader *reader, uint32_t node, FrElementId id, void *o
 char *fr_read_id(FrReader *reader, uint32_t node);
 /// The place of an attribute's value, else that of the element's name.
 FrXmlRange fr_read_value_place(const FrReader *reader, uint32_t node, const char *attribute);
-/// "; did you mean 'x'?" or "". Free with g_free(). Looks among some candidates and for some errors
-/// only: a document may hold 100 000 misspelt names of 100 000.
+/// As many of `count` names as are worth giving to fr_read_hint(): a document may hold 100 000
+/// misspelt names of 100 000.
+static inline uint32_t fr_read_candidates(size_t count) {
+    return count < 1000 ? (uint32_t)count : 1000;
+}
+/// "; did you mean 'x'?" or "". Free with g_free(). Looks for the first errors of a document only.
 char *fr_read_hint(FrReader *reader, const char *name, const char *const *candidates, size_t count);

@@ -32,6 +32,7 @@ struct FrMaterial {
     char *name;
     char *folder;
     FrSpan span;
+    FrSpan places[FR_MAP_COUNT]; ///< of the files' names
     FrMaterialParams params;
     pthread_mutex_t lock; ///< guards slots; not GMutex: thread sanitizers see through this
     Slot slots[FR_MAP_COUNT];
@@ -52,6 +53,12 @@ FrMaterial *fr_material_new(const char *name, const FrMaterialParams *params, co
     return material;
 }
 
+void fr_material_set_place(FrMaterial *material, FrMap map, FrSpan place) {
+    fr_source_ref(place.source);
+    fr_source_unref(material->places[map].source);
+    material->places[map] = place;
+}
+
 FrMaterial *fr_material_ref(FrMaterial *material) {
     g_atomic_ref_count_inc(&material->references);
     return material;
@@ -64,6 +71,7 @@ void fr_material_unref(FrMaterial *material) {
     for (int map = 0; map < FR_MAP_COUNT; map++) {
         g_clear_pointer(&material->slots[map].file, g_bytes_unref);
         g_clear_pointer(&material->slots[map].image, fr_image_unref);
+        fr_source_unref(material->places[map].source);
     }
     fr_params_clear(&table, &material->params);
     if (material->span.source != NULL) {
@@ -93,6 +101,10 @@ static const char *file_name(const FrMaterial *material, FrMap map) {
     return names[map] != NULL && names[map][0] != '\0' ? names[map] : NULL;
 }
 
+static FrSpan place_of(const FrMaterial *material, FrMap map) {
+    return material->places[map].source != NULL ? material->places[map] : material->span;
+}
+
 static bool is_made(const FrMaterial *material, FrMap map) {
     return file_name(material, map) == NULL && material->params.texture != FR_TEXTURE_NONE;
 }
@@ -118,7 +130,7 @@ static FrStatus fetch_bytes(FrMaterial *material, FrMap map, const FrContext *co
         return FR_OK;
     }
     char *path = file_path(material, file_name(material, map));
-    FrStatus status = fr_picture_read_file(path, material->span, context, &slot->file);
+    FrStatus status = fr_picture_read_file(path, place_of(material, map), context, &slot->file);
     g_free(path);
     return status;
 }
@@ -131,8 +143,8 @@ static FrStatus fetch_file(FrMaterial *material, FrMap map, const FrContext *con
     }
     gsize size = 0;
     const void *data = g_bytes_get_data(slot->file, &size);
-    slot->image =
-        fr_image_from_bytes(data, size, file_name(material, map), material->span, context, &status);
+    slot->image = fr_image_from_bytes(data, size, file_name(material, map), place_of(material, map),
+                                      context, &status);
     if (slot->image == NULL) {
         g_clear_pointer(&slot->file, g_bytes_unref); // a repaired file is read afresh
     }

@@ -1,6 +1,8 @@
 /// Sections are read into definitions; what is wrong is said at its place.
 #include "documents.h"
 
+#include <glib/gstdio.h>
+
 static void test_definitions(void) {
     char *path = in_source("tests/document/versions/1.frond");
     FrContext context = fr_context_default();
@@ -85,6 +87,8 @@ static const Wrong wrongs[] = {
     {"<curve id='c' points='0,1'/>\n<function id='c'>1</function>", NULL, 3, 0},
     {"<plant id='p'/>", "missing-element", 2, 2},
     {GRAPH("<link from='r' to='trnk'/><horn id='trunk'/>"), "unknown-component", 2, 58},
+    {"<plant id='p'><pgraph><!-- nothing --></pgraph></plant>", "no-component", 2, 16},
+    {GRAPH("<horn id='h' material='brk'/>"), "unknown-material", 2, 62},
     {GRAPH("<link to='r'/>"), "missing-attribute", 2, 40},
     {GRAPH("<horn id='r'/>"), NULL, 2, 0},
     {GRAPH("<horn id='h'/><link from='r' to='h' kind='stem'/>"), "unknown-choice", 2, 81},
@@ -187,6 +191,39 @@ static void test_carets(void) {
     forget(&parsed);
 }
 
+/// The name is suggested even where no component of the graph uses that material.
+static void test_material_is_suggested(void) {
+    Parsed parsed = parse("<frond version='1'><material id='bark'/>\n" GRAPH(
+        "<horn id='h' material='bakr'/>") "</frond>");
+    assert_one_error(&parsed, FR_ERR_DOCUMENT, "unknown-material", 2, 62);
+    g_assert_cmpstr(fr_diags_get(parsed.diags, 0)->text, ==,
+                    "there is no material 'bakr'; did you mean 'bark'?");
+    forget(&parsed);
+}
+
+/// A picture that is there but is none is found when it is read, and shown where it is named.
+static void test_damaged_picture(void) {
+    char *folder = g_dir_make_tmp("frond-XXXXXX", NULL);
+    char *picture = g_build_filename(folder, "leaf.png", NULL);
+    g_assert_true(g_file_set_contents(picture, "no picture", -1, NULL));
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    const char *text = "<frond version='1'>\n<material id='m'\n  normal-map='leaf.png'/></frond>";
+    FrSource *source = fr_source_new("test.frond", text, strlen(text));
+    Parsed parsed = {.diags = context.diags};
+    FrStatus status = fr_document_parse(source, folder, &context, &parsed.document);
+    g_assert_cmpint(status, ==, FR_OK);
+    FrMaterial *material = g_ptr_array_index(fr_document_materials(parsed.document), 0);
+    g_assert_null(fr_material_image(material, FR_MAP_NORMAL, &context, &parsed.status));
+    assert_one_error(&parsed, FR_ERR_DOCUMENT, "picture-format", 3, 15);
+    forget(&parsed);
+    fr_source_unref(source);
+    g_remove(picture);
+    g_rmdir(folder);
+    g_free(picture);
+    g_free(folder);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/document/read/a document of version 1 gives its definitions",
@@ -196,5 +233,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/document/read/versions are minded", test_versions);
     g_test_add_func("/document/read/many errors come in one run with carets and near names",
                     test_carets);
+    g_test_add_func("/document/read/a material's name is suggested", test_material_is_suggested);
+    g_test_add_func("/document/read/a damaged picture is shown where it is named",
+                    test_damaged_picture);
     return g_test_run();
 }
