@@ -1,0 +1,235 @@
+// Rational B-splines against circles, closed forms and differences.
+#include "frond/nurbs.h"
+
+#include <glib.h>
+
+#include <math.h>
+#include <string.h>
+
+static const FrNurbsCircle forms[] = {FR_CIRCLE_TRIANGLE, FR_CIRCLE_SQUARE, FR_CIRCLE_NINE,
+                                      FR_CIRCLE_CUBIC};
+
+static void circles(void) {
+    for (size_t f = 0; f < G_N_ELEMENTS(forms); f++) {
+        FrNurbsCurve circle = fr_nurbs_circle(forms[f]);
+        double turned = 0.0, last = 0.0;
+        for (int i = 0; i <= 1000; i++) {
+            double point[3], slope[3];
+            fr_nurbs_curve_at(&circle, i / 1000.0, point, slope);
+            g_assert_cmpfloat_with_epsilon(hypot(point[0], point[1]), 1.0, 1e-15);
+            g_assert_cmpfloat_with_epsilon(point[0] * slope[0] + point[1] * slope[1], 0.0, 1e-12);
+            double angle = atan2(point[1], point[0]);
+            turned += i > 0 ? remainder(angle - last, 2 * G_PI) : 0.0;
+            last = angle;
+        }
+        g_assert_cmpfloat_with_epsilon(turned, 2 * G_PI, 1e-9);
+        fr_nurbs_curve_clear(&circle);
+    }
+}
+
+// Parametric speeds as published: fastest over slowest.
+static void speeds(void) {
+    const double published[] = {1.33, 2.00, 1.17, 2.00};
+    for (size_t f = 0; f < G_N_ELEMENTS(forms); f++) {
+        FrNurbsCurve circle = fr_nurbs_circle(forms[f]);
+        double low = INFINITY, high = 0.0;
+        for (int i = 0; i < 3000; i++) {
+            double slope[3];
+            fr_nurbs_curve_at(&circle, (i + 0.5) / 3000, NULL, slope);
+            low = fmin(low, hypot(slope[0], slope[1]));
+            high = fmax(high, hypot(slope[0], slope[1]));
+        }
+        g_assert_cmpfloat_with_epsilon(high / low, published[f], 0.006);
+        fr_nurbs_curve_clear(&circle);
+    }
+}
+
+static void basis(void) {
+    // Piegl and Tiller, example 2.3: degree 2, knots 0 0 0 1 2 3 4 4 5 5 5, u = 5/2.
+    const double knots[] = {0, 0, 0, 1, 2, 3, 4, 4, 5, 5, 5};
+    double value[3], slope[3];
+    uint32_t span = fr_nurbs_span(knots, 2, 8, 2.5);
+    g_assert_cmpuint(span, ==, 4);
+    fr_nurbs_basis(knots, 2, span, 2.5, value, slope);
+    const double published[] = {1.0 / 8, 6.0 / 8, 1.0 / 8}, published_slope[] = {-0.5, 0, 0.5};
+    for (int i = 0; i < 3; i++) {
+        g_assert_cmpfloat_with_epsilon(value[i], published[i], 1e-15);
+        g_assert_cmpfloat_with_epsilon(slope[i], published_slope[i], 1e-15);
+    }
+    g_assert_cmpuint(fr_nurbs_span(knots, 2, 8, 5.0), ==, 7);
+}
+
+static void insertion(void) {
+    for (size_t f = 0; f < G_N_ELEMENTS(forms); f++) {
+        FrNurbsCurve circle = fr_nurbs_circle(forms[f]), finer = fr_nurbs_curve_copy(&circle);
+        const double knots[] = {0.1, 0.5, 0.77, 0.9};
+        for (int i = 0; i < 4; i++) {
+            fr_nurbs_curve_insert(&finer, knots[i]);
+        }
+        g_assert_cmpuint(finer.count, ==, circle.count + 4);
+        for (int i = 0; i <= 100; i++) {
+            double a[3], b[3];
+            fr_nurbs_curve_at(&circle, i / 100.0, a, NULL);
+            fr_nurbs_curve_at(&finer, i / 100.0, b, NULL);
+            for (int k = 0; k < 3; k++) {
+                g_assert_cmpfloat_with_epsilon(a[k], b[k], 1e-14);
+            }
+        }
+        fr_nurbs_curve_clear(&circle);
+        fr_nurbs_curve_clear(&finer);
+    }
+}
+
+// The uniform cubic: at its knots the curve is (a + 4b + c) / 6.
+static void closed_polygon(void) {
+    const double star[6][2] = {{2, 0}, {0.5, 0.8}, {-1, 1.7}, {-1, 0}, {-1, -1.7}, {0.5, -0.8}};
+    FrNurbsCurve curve = fr_nurbs_from_polygon(star, 6, true, 3);
+    g_assert_cmpuint(curve.count, ==, 9);
+    for (int i = 0; i <= 6; i++) {
+        double point[3], nearest = INFINITY;
+        fr_nurbs_curve_at(&curve, i / 6.0, point, NULL);
+        for (int j = 0; j < 6; j++) {
+            const double *a = star[j], *b = star[(j + 1) % 6], *c = star[(j + 2) % 6];
+            double x = (a[0] + 4 * b[0] + c[0]) / 6, y = (a[1] + 4 * b[1] + c[1]) / 6;
+            nearest = fmin(nearest, hypot(point[0] - x, point[1] - y));
+        }
+        g_assert_cmpfloat(nearest, <, 1e-14);
+    }
+    double first[3], last[3];
+    fr_nurbs_curve_at(&curve, 0, NULL, first);
+    fr_nurbs_curve_at(&curve, 1, NULL, last);
+    g_assert_cmpfloat_with_epsilon(first[0], last[0], 1e-12);
+    g_assert_cmpfloat_with_epsilon(first[1], last[1], 1e-12);
+    fr_nurbs_curve_clear(&curve);
+    curve = fr_nurbs_from_polygon(star, 6, true, 1);
+    double corner[3];
+    fr_nurbs_curve_at(&curve, 2.0 / 6, corner, NULL);
+    g_assert_cmpfloat_with_epsilon(corner[0], star[2][0], 1e-14);
+    fr_nurbs_curve_clear(&curve);
+}
+
+static void merging(void) {
+    const double star[5][2] = {{2, 0}, {0.5, 0.8}, {-1, 1.7}, {-1, -1.7}, {0.5, -0.8}};
+    FrNurbsCurve a = fr_nurbs_circle(FR_CIRCLE_CUBIC);
+    FrNurbsCurve b = fr_nurbs_from_polygon(star, 5, true, 3);
+    fr_nurbs_curves_merge(&a, &b);
+    g_assert_cmpuint(a.count, ==, b.count);
+    for (uint32_t i = 0; i < a.count + 4; i++) {
+        g_assert_cmpfloat_with_epsilon(a.knots[i], b.knots[i], 1e-12);
+    }
+    for (int i = 0; i <= 100; i++) {
+        double point[3];
+        fr_nurbs_curve_at(&a, i / 100.0, point, NULL);
+        g_assert_cmpfloat_with_epsilon(hypot(point[0], point[1]), 1.0, 1e-14);
+    }
+    fr_nurbs_curve_clear(&a);
+    fr_nurbs_curve_clear(&b);
+}
+
+/// A bent quarter of a torus, with weights in both directions.
+static FrNurbsSurface patch(double (*points)[4]) {
+    static const double knots_u[] = {0, 0, 0, 1, 1, 1}, knots_v[] = {0, 0, 0, 0.4, 1, 1, 1};
+    for (int j = 0; j < 4; j++) {
+        for (int i = 0; i < 3; i++) {
+            double point[4] = {i - 0.3 * j, 0.5 * j + 0.2 * i * i, 2 + 0.3 * i * j,
+                               1 + 0.5 * i - 0.2 * j};
+            memcpy(points[j * 3 + i], point, sizeof point);
+        }
+    }
+    return (FrNurbsSurface){2, 2, 3, 4, knots_u, knots_v, (const double(*)[4])points};
+}
+
+static void surface_slopes(void) {
+    double points[12][4];
+    FrNurbsSurface surface = patch(points);
+    g_assert_true(fr_nurbs_surface_is_valid(&surface));
+    for (int n = 0; n < 49; n++) {
+        double u = 0.05 + 0.13 * (n % 7), v = 0.05 + 0.13 * (n / 7), h = 1e-6;
+        double du[3], dv[3], a[3], b[3], c[3], d[3];
+        fr_nurbs_surface_at(&surface, u, v, NULL, du, dv);
+        fr_nurbs_surface_at(&surface, u - h, v, a, NULL, NULL);
+        fr_nurbs_surface_at(&surface, u + h, v, b, NULL, NULL);
+        fr_nurbs_surface_at(&surface, u, v - h, c, NULL, NULL);
+        fr_nurbs_surface_at(&surface, u, v + h, d, NULL, NULL);
+        for (int k = 0; k < 3; k++) {
+            g_assert_cmpfloat_with_epsilon(du[k], (b[k] - a[k]) / (2 * h), 1e-7);
+            g_assert_cmpfloat_with_epsilon(dv[k], (d[k] - c[k]) / (2 * h), 1e-7);
+        }
+    }
+}
+
+static void projection(void) {
+    const double camera[4][4] = {
+        {1.2, 0.1, 0.3, 0.5}, {0, 0.9, -0.4, 1}, {0.2, 0.4, 0.8, 2}, {0.05, 0.1, 0.3, 1.5}};
+    double points[12][4], images[12][4];
+    FrNurbsSurface surface = patch(points), projected = surface;
+    projected.points = (const double(*)[4])images;
+    for (int i = 0; i < 12; i++) {
+        fr_nurbs_project(camera, points[i], images[i]);
+    }
+    for (int n = 0; n <= 100; n++) {
+        double at[4], image[4], evaluated[3], u = (n % 10) / 9.0, v = (n / 10) / 10.0;
+        fr_nurbs_surface_at(&surface, u, v, at, NULL, NULL);
+        at[3] = 1.0;
+        fr_nurbs_project(camera, at, image);
+        fr_nurbs_surface_at(&projected, u, v, evaluated, NULL, NULL);
+        for (int k = 0; k < 3; k++) {
+            g_assert_cmpfloat_with_epsilon(image[k], evaluated[k], 1e-14);
+        }
+    }
+}
+
+static void interpolation(void) {
+    double at[9], knots[13], values[9][2];
+    for (int i = 0; i < 9; i++) {
+        at[i] = i / 8.0 + 0.03 * sin(i * G_PI / 4);
+        values[i][0] = 1 + at[i] - 3 * at[i] * at[i] * at[i]; // a cubic comes back as it is
+        values[i][1] = sin(3 * at[i]);
+    }
+    fr_nurbs_average_knots(at, 9, 3, knots);
+    fr_nurbs_interpolate(knots, 3, at, 9, values[0], 2, 2);
+    double points[9][4];
+    for (int i = 0; i < 9; i++) {
+        double control[4] = {values[i][0], values[i][1], 0, 1};
+        memcpy(points[i], control, sizeof control);
+    }
+    FrNurbsCurve curve = {3, 9, knots, points};
+    for (int i = 0; i < 9; i++) {
+        double point[3];
+        fr_nurbs_curve_at(&curve, at[i], point, NULL);
+        g_assert_cmpfloat_with_epsilon(point[1], sin(3 * at[i]), 1e-14);
+    }
+    for (int i = 0; i <= 50; i++) {
+        double u = i / 50.0, point[3];
+        u = fmin(fmax(u, at[0]), at[8]);
+        fr_nurbs_curve_at(&curve, u, point, NULL);
+        g_assert_cmpfloat_with_epsilon(point[0], 1 + u - 3 * u * u * u, 1e-13);
+    }
+}
+
+static void refused(void) {
+    double points[12][4], falling[] = {0, 0, 0, 1, 0.5, 1};
+    FrNurbsSurface surface = patch(points);
+    surface.knots_u = falling;
+    g_assert_false(fr_nurbs_surface_is_valid(&surface));
+    surface = patch(points);
+    points[5][3] = 0.0;
+    g_assert_false(fr_nurbs_surface_is_valid(&surface));
+    points[5][3] = NAN;
+    g_assert_false(fr_nurbs_surface_is_valid(&surface));
+}
+
+int main(int argc, char **argv) {
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/math/nurbs/circles of all four forms are exact", circles);
+    g_test_add_func("/math/nurbs/circles have their published speeds", speeds);
+    g_test_add_func("/math/nurbs/basis functions are those of the book", basis);
+    g_test_add_func("/math/nurbs/an inserted knot changes nothing", insertion);
+    g_test_add_func("/math/nurbs/a closed polygon makes a smooth closed spline", closed_polygon);
+    g_test_add_func("/math/nurbs/curves with merged knots stay the same", merging);
+    g_test_add_func("/math/nurbs/slopes agree with differences", surface_slopes);
+    g_test_add_func("/math/nurbs/projecting first is evaluating first", projection);
+    g_test_add_func("/math/nurbs/interpolation hits its points", interpolation);
+    g_test_add_func("/math/nurbs/wrong knots and weights are refused", refused);
+    return g_test_run();
+}
