@@ -69,7 +69,7 @@ typedef struct FrLquery {
     uint64_t asked;    ///< bit i: parameter i is open; for ?E all are
     float *parameters; ///< what the module says; answers are written here
     uint64_t module;   ///< index in the string
-    vec3s position, heading, left, up;
+    vec3s position, heading, left, up; ///< up as cpfg has it: −(heading × left)
     float width, scale; ///< of the turtle
 } FrLquery;
 

@@ -2,4 +2,4 @@
 /// The turtle's pass before a step: query modules are filled, open symbols are answered.
 #pragma once
 
-#include "lsystem/derive.h"
+#include "lsystem/build.h"
