@@ -14,7 +14,7 @@
     X(organs, 20000000, "leaves, flowers and other organs of one plant")                           \
     X(shapes, 65536, "distinct organ shapes of one plant")                                         \
     X(depth, 4096, "generations of a recursion")                                                   \
-    X(scopes, 64, "deformations or fields within one another")                                                                    \
+    X(scopes, 64, "deformations or fields within one another")                                     \
     X(modules, 400000000, "modules of the string of an L-system")                                  \
     X(iterations, 100000000, "times around the loops of an L-system in one step")                  \
     X(plants, 100000, "plants of a scene")                                                         \
