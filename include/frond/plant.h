@@ -136,7 +136,7 @@ typedef enum FrShapeKind {
     FR_SHAPE_SQUARE,
     FR_SHAPE_CIRCLE,
     FR_SHAPE_TRIANGLE,
-    FR_SHAPE_MESH, ///< triangles of a profile, see FrShape.detail
+    FR_SHAPE_MESH,       ///< triangles of a profile, see FrShape.detail
     FR_SHAPE_REVOLUTION, ///< an outline turned about the z axis
 } FrShapeKind;
 
@@ -147,10 +147,10 @@ typedef struct FrShape {
     uint32_t detail; ///< primitives: segments around, ≥ 3. FR_SHAPE_MESH: the profile whose points
                      ///< come in pairs, (x, y) and (z, 0), a corner each, three a triangle; at
                      ///< most 2600 triangles, scaled by `size`
-    uint32_t outline; ///< FR_SHAPE_REVOLUTION: profile whose points are (along 0–1, half width 0–0.5)
-                      ///< of `size`, in the order in which its outer side lies to the right of one
-                      ///< who goes up; open ends that are not on the axis stay open
-    FrBlade blade;    ///< for FR_SHAPE_BLADE
+    uint32_t outline; ///< FR_SHAPE_REVOLUTION: profile whose points are (along 0–1, half width
+                      ///< 0–0.5) of `size`, in the order in which its outer side lies to the right
+                      ///< of one who goes up; open ends that are not on the axis stay open
+    FrBlade blade; ///< for FR_SHAPE_BLADE
 } FrShape;
 
 typedef enum FrDeformationKind {
@@ -162,11 +162,11 @@ typedef enum FrDeformationKind {
 /// How space is deformed, in the coordinates of the scope that does it.
 typedef struct FrDeformation {
     FrDeformationKind kind;
-    bool is_skeleton; ///< moves the nodes of axes and keeps cross-sections and organs as they are;
-                      ///< otherwise every vertex is moved
-    bool is_cut;      ///< scopes around it move what is within as one rigid body
-    FrExpr *map[3];   ///< FR_DEFORM_FUNCTIONS: the new x, y, z from x, y, z, amount; references
-    FrLattice lattice;  ///< FR_DEFORM_LATTICE
+    bool is_skeleton;  ///< moves the nodes of axes and keeps cross-sections and organs as they are;
+                       ///< otherwise every vertex is moved
+    bool is_cut;       ///< scopes around it move what is within as one rigid body
+    FrExpr *map[3];    ///< FR_DEFORM_FUNCTIONS: the new x, y, z from x, y, z, amount; references
+    FrLattice lattice; ///< FR_DEFORM_LATTICE
     uint32_t component; ///< what made it, for messages; FR_NONE
 } FrDeformation;
 

@@ -28,10 +28,12 @@ static const char head[] =
 
 static const char *kind_name(FrParamKind kind) {
     static const char *const names[] = {
-        [FR_PARAM_NUMBER] = "number", [FR_PARAM_REAL] = "real",     [FR_PARAM_INTEGER] = "integer",
-        [FR_PARAM_SWITCH] = "switch", [FR_PARAM_CHOICE] = "choice", [FR_PARAM_TEXT] = "text",
-        [FR_PARAM_CURVE] = "curve",   [FR_PARAM_POINTS] = "points", [FR_PARAM_VECTOR] = "vector",
-        [FR_PARAM_COLOUR] = "colour", [FR_PARAM_FORMULA] = "formula",
+        [FR_PARAM_NUMBER] = "number",   [FR_PARAM_REAL] = "real",
+        [FR_PARAM_INTEGER] = "integer", [FR_PARAM_SWITCH] = "switch",
+        [FR_PARAM_CHOICE] = "choice",   [FR_PARAM_TEXT] = "text",
+        [FR_PARAM_CURVE] = "curve",     [FR_PARAM_POINTS] = "points",
+        [FR_PARAM_VECTOR] = "vector",   [FR_PARAM_COLOUR] = "colour",
+        [FR_PARAM_FORMULA] = "formula",
     };
     return names[kind];
 }

@@ -1,5 +1,6 @@
 // What can be wrong with a p-graph before anything is made of it.
 #include "pgraph/choice.h"
+#include "pgraph/global.h"
 #include "pgraph/prepare.h"
 
 #include <string.h>
@@ -62,6 +63,9 @@ static FrStatus check_own(const FrPgraph *graph, uint32_t component, FrDiags *di
         g_clear_pointer(&weights, g_array_unref);
         return status;
     }
+    if (fr_is_global(prototype->kind)) {
+        return fr_check_global(prototype, diags);
+    }
     const FrRevoParams *revo = prototype->params;
     if (prototype->kind == FR_COMPONENT_REVO &&
         (revo->outline.count < 2 || revo->outline.count > FR_MOST_OUTLINE_POINTS)) {
@@ -90,7 +94,7 @@ static FrStatus check_texts(const FrPgraph *graph, FrDiags *diags) {
         bool is_stem = prototype->kind == FR_COMPONENT_HORN || prototype->kind == FR_COMPONENT_TREE;
         const FrStemParams *stem = prototype->params;
         if (is_stem && stem->course == FR_COURSE_PATH) {
-            GArray *points = fr_stem_path_points(prototype, diags);
+            GArray *points = fr_path_points(stem->path, prototype, diags);
             status = points == NULL ? FR_ERR_DOCUMENT : status;
             g_clear_pointer(&points, g_array_unref);
         }

@@ -20,6 +20,9 @@ typedef struct FrEvaluator {
 } FrEvaluator;
 
 GHashTable *fr_value_faults_new(void);
+/// Takes note of an expression that had no value.
+void fr_value_note(FrEvaluator *evaluator, uint32_t component, uint32_t parameter,
+                   const FrExprFault *fault);
 /// The slow path of fr_value().
 double fr_value_varying(FrEvaluator *evaluator, const FrNumber *number, uint32_t parameter);
 

@@ -6,6 +6,7 @@
 // summed and checked against the limits; then rows for all it makes are appended at once and
 // filled in parallel by index. So nothing depends on the number of threads, parents come before
 // children, and too large a plant is refused before it has memory.
+#include "pgraph/global.h"
 #include "pgraph/instance.h"
 
 #include <math.h>
@@ -58,7 +59,7 @@ static void for_level(FrBuild *build, FrRangeFn body) {
 // ---- limits -----------------------------------------------------------------------------------
 
 typedef struct Sums {
-    uint64_t children, considered, nodes, axes, organs;
+    uint64_t children, considered, nodes, axes, organs, scopes, fields;
     uint32_t most_children, most_nodes, most_organs; // rows that made the most of each
 } Sums;
 
@@ -96,6 +97,10 @@ static Sums sum_level(const FrExpansion *expansion) {
         sums.nodes += level->node_count[row];
         sums.axes += level->axis_count[row];
         sums.organs += level->organ_count[row];
+        if (level->global_count[row] > 0) {
+            bool is_scope = fr_is_scope(fr_stage_prepared(expansion, level->stage[row])->kind);
+            *(is_scope ? &sums.scopes : &sums.fields) += 1;
+        }
         if (children > most_children) {
             most_children = children;
             sums.most_children = row;
@@ -126,6 +131,8 @@ static FrStatus check_level(const FrBuild *build, const Sums *sums) {
     uint64_t organs = plant->organs.count + sums->organs;
     uint64_t axes = plant->axes.count + sums->axes;
     uint64_t bytes = nodes * ROW_BYTES_NODE + axes * ROW_BYTES_AXIS + organs * ROW_BYTES_ORGAN;
+    bytes += (plant->deformers->len + sums->scopes) * sizeof(FrDeformer) +
+             (build->expansion.fields->len + sums->fields) * sizeof(FrField);
     bytes = fr_count_add(
         bytes, fr_count_multiply(fr_count_add(build->expansion.level.count, sums->considered),
                                  fr_level_row_bytes()));
@@ -156,12 +163,39 @@ static void counts_to_indices(uint32_t *column, uint32_t count, uint32_t first) 
     }
 }
 
+// Scopes go to the plant, fields are done with when it is built.
+static void append_globals(FrExpansion *expansion, const Sums *sums) {
+    FrLevel *level = &expansion->level;
+    uint32_t scope = fr_plant_append_deformers(expansion->plant, (uint32_t)sums->scopes);
+    uint32_t field = expansion->fields->len;
+    g_array_set_size(expansion->fields, field + (uint32_t)sums->fields);
+    for (uint32_t row = 0; row < level->count; row++) {
+        if (level->global_count[row] > 0) {
+            bool is_scope = fr_is_scope(fr_stage_prepared(expansion, level->stage[row])->kind);
+            level->global_count[row] = is_scope ? scope++ : field++;
+        }
+    }
+}
+
+// How deep scopes and fields lie within one another, once a level has been made.
+static FrStatus check_scopes(const FrBuild *build) {
+    const FrLevel *level = &build->expansion.level;
+    uint32_t deepest = 0;
+    for (uint32_t row = 0; row < level->count; row++) {
+        deepest = level->scopes[row] > level->scopes[deepest] ? row : deepest;
+    }
+    return level->count == 0 ? FR_OK
+                             : check(build, level->scopes[deepest], build->context->limits.scopes,
+                                     "scopes", deepest);
+}
+
 static void append_rows(FrExpansion *expansion, const Sums *sums) {
     FrLevel *level = &expansion->level;
     FrPlant *plant = expansion->plant;
     uint32_t first_axis = fr_plant_append_axes(plant, (uint32_t)sums->axes);
     uint32_t first_node = fr_plant_append_nodes(plant, (uint32_t)sums->nodes);
     expansion->first_organ = fr_plant_append_organs(plant, (uint32_t)sums->organs);
+    append_globals(expansion, sums);
     counts_to_indices(level->axis_count, level->count, first_axis);
     counts_to_indices(level->node_count, level->count, first_node);
     counts_to_indices(level->organ_count, level->count, expansion->first_organ);
@@ -255,7 +289,7 @@ static FrStatus expand_level(FrBuild *build) {
     for_level(build, make_range);
     status = fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : find_shapes(build);
     g_clear_pointer(&expansion->blades, g_free);
-    return status;
+    return status == FR_OK ? check_scopes(build) : status;
 }
 
 // ---- the whole --------------------------------------------------------------------------------
@@ -281,7 +315,11 @@ static void begin_level(FrBuild *build) {
         level->x[row] = 0;
         level->parent_length[row] = -1;
         level->parent_radius[row] = 0;
+        level->stretch[row] = 1;
         level->material[row] = level->axis[row] = FR_NONE;
+        level->deformer[row] = level->field[row] = FR_NONE;
+        level->scopes[row] = 0;
+        level->step[row] = 0;
     }
 }
 
@@ -437,9 +475,11 @@ FrStatus fr_pgraph_build(const FrPgraph *graph, const FrContext *context, FrPlan
     if (status == FR_OK) {
         FrUnrolled unrolled;
         build.expansion.plant = fr_plant_new(graph->name);
+        build.expansion.fields = g_array_new(FALSE, TRUE, sizeof(FrField));
         status = fr_unroll(&unrolled, graph, &recursions, context);
         status = status == FR_OK ? expand(&build, &recursions, &unrolled) : status;
         fr_unrolled_clear(&unrolled);
+        g_array_unref(build.expansion.fields);
     }
     fr_recursions_clear(&recursions);
     if (status == FR_OK) {

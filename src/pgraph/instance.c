@@ -136,7 +136,19 @@ FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, dou
         .scale = scale,
         .parent_length = (double)level->parent_length[row],
         .parent_radius = (double)level->parent_radius[row],
+        .stretch = (double)level->stretch[row],
         .has_parent = level->parent_length[row] >= 0,
+        .step = (double)level->step[row],
+        .is_in_field = level->field[row] != FR_NONE,
+    };
+}
+
+FrFields fr_instance_fields(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
+    return (FrFields){
+        .fields = (const FrField *)(const void *)expansion->fields->data,
+        .prepared = expansion->prepared,
+        .innermost = expansion->level.field[row],
+        .evaluator = evaluator,
     };
 }
 
@@ -171,6 +183,11 @@ void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLin
     next->x[at] = child->x;
     next->parent_length[at] = child->parent_length;
     next->parent_radius[at] = child->parent_radius;
+    next->stretch[at] = child->stretch;
     next->material[at] = fr_instance_material(expansion, row);
+    next->deformer[at] = level->deformer[row];
+    next->field[at] = level->field[row];
+    next->scopes[at] = level->scopes[row];
+    next->step[at] = level->step[row];
     next->axis[at] = child->axis;
 }

@@ -2,6 +2,7 @@
 /// One instance on its way from a row of a level to nodes, axes, organs and children.
 #pragma once
 
+#include "pgraph/field.h"
 #include "pgraph/level.h"
 #include "pgraph/stem.h"
 #include "pgraph/unroll.h"
@@ -17,6 +18,7 @@ typedef struct FrExpansion {
     GHashTable **faults;   ///< of each worker
     FrShape *blades;       ///< of this level's organs, for shapes to be found after the loop; NULL
     uint32_t first_organ;  ///< of this level
+    GArray *fields;        ///< FrField
 } FrExpansion;
 
 /// Where and how large an instance is, its own transformation applied.
@@ -36,7 +38,7 @@ typedef struct FrChild {
     bool is_multiplied;
     uint8_t joint;
     uint16_t order;
-    float x, parent_length, parent_radius;
+    float x, parent_length, parent_radius, stretch;
     uint32_t axis;
 } FrChild;
 
@@ -60,6 +62,8 @@ void fr_instance_enter(const FrExpansion *expansion, uint32_t row, FrEvaluator *
 FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// What its stem grows from.
 FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, double scale);
+/// The fields it grows in.
+FrFields fr_instance_fields(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// The material of what it makes.
 uint32_t fr_instance_material(const FrExpansion *expansion, uint32_t row);
 /// A pose moved and turned within itself.

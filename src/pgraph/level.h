@@ -27,19 +27,25 @@ enum {
     X(uint32_t, n1)                                                                                \
     X(uint32_t, i2)                                                                                \
     X(uint32_t, n2)                                                                                \
-    X(uint16_t, generation)  /* within the nearest recursion */                                    \
-    X(uint16_t, order)       /* branch order */                                                    \
-    X(uint8_t, joint)        /* FR_JOINT_… */                                                    \
-    X(float, x)              /* position along the parent stem */                                  \
-    X(float, parent_length)  /* of the stem it stands on, m at scale 1; < 0: there is none */      \
-    X(float, parent_radius)  /* the same, where it stands */                                       \
-    X(uint32_t, material)    /* of the plant, FR_NONE */                                           \
-    X(uint32_t, axis)        /* for FR_JOINT_SET */                                                \
-    X(uint32_t, places)      /* children of a multiplier, flagged-out ones counted */              \
-    X(uint32_t, child_count) /* then: index of the first child in the next level */                \
-    X(uint32_t, node_count)  /* then: index of its first node in the plant */                      \
-    X(uint32_t, axis_count)  /* then: index of its axis */                                         \
-    X(uint32_t, organ_count) /* then: index of its first organ */
+    X(uint16_t, generation)   /* within the nearest recursion */                                   \
+    X(uint16_t, order)        /* branch order */                                                   \
+    X(uint8_t, joint)         /* FR_JOINT_… */                                                   \
+    X(float, x)               /* position along the parent stem */                                 \
+    X(float, parent_length)   /* of the stem it stands on, m at scale 1; < 0: there is none */     \
+    X(float, parent_radius)   /* the same, where it stands */                                      \
+    X(float, stretch)         /* factor of its length, from its parent */                          \
+    X(uint32_t, material)     /* of the plant, FR_NONE */                                          \
+    X(uint32_t, deformer)     /* scope it is in, of the plant; FR_NONE */                          \
+    X(uint32_t, field)        /* field it is in; FR_NONE */                                        \
+    X(uint16_t, scopes)       /* how many scopes and fields are around it */                       \
+    X(float, step)            /* m, most of an internode in them; 0: any */                        \
+    X(uint32_t, axis)         /* for FR_JOINT_SET */                                               \
+    X(uint32_t, places)       /* children of a multiplier, flagged-out ones counted */             \
+    X(uint32_t, child_count)  /* then: index of the first child in the next level */               \
+    X(uint32_t, node_count)   /* then: index of its first node in the plant */                     \
+    X(uint32_t, axis_count)   /* then: index of its axis */                                        \
+    X(uint32_t, organ_count)  /* then: index of its first organ */                                 \
+    X(uint32_t, global_count) /* then: index of its scope in the plant, or of its field */
 
 typedef struct FrLevel {
     uint32_t count;

@@ -1,4 +1,5 @@
 // Making what an instance stands for: its axis, nodes, organs, and the rows of its children.
+#include "pgraph/global.h"
 #include "pgraph/instance.h"
 
 #include "plant/frames.h"
@@ -28,6 +29,7 @@ FrChild fr_single_child(const FrExpansion *expansion, uint32_t row, FrPose site)
         .x = level->x[row],
         .parent_length = level->parent_length[row],
         .parent_radius = level->parent_radius[row],
+        .stretch = 1,
         .axis = FR_NONE,
     };
 }
@@ -72,6 +74,7 @@ uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t org
     organs->shape[organ] = shape;
     organs->material[organ] = fr_instance_material(expansion, row);
     organs->component[organ] = fr_instance_stage(expansion, row)->component;
+    organs->deformer[organ] = expansion->level.deformer[row];
     organs->path[organ] = expansion->level.key[row];
     return organ;
 }
@@ -87,6 +90,7 @@ static void write_axis(const FrExpansion *expansion, uint32_t row, uint32_t axis
     axes->profile[axis] = prepared_of(expansion, row)->profile;
     axes->material[axis] = fr_instance_material(expansion, row);
     axes->component[axis] = fr_instance_stage(expansion, row)->component;
+    axes->deformer[axis] = expansion->level.deformer[row];
     axes->path[axis] = expansion->level.key[row];
 }
 
@@ -101,8 +105,33 @@ static versors turned_towards(versors frame, vec3s from, vec3s to, double part) 
     return fr_frame_step(fr_rotation_about(axis, (float)part * angle), frame);
 }
 
-static versors leaf_rotation(const FrExpansion *expansion, const FrLeafParams *leaf, FrPose pose,
+// A field's direction; where it has none the leaf keeps to the plain one.
+static vec3s direction_of(const double field[3], vec3s plain) {
+    double size = sqrt(field[0] * field[0] + field[1] * field[1] + field[2] * field[2]);
+    return size > 1e-9 ? (vec3s){{(float)(field[0] / size), (float)(field[1] / size),
+                                  (float)(field[2] / size)}}
+                       : plain;
+}
+
+static void leaf_fields(const FrExpansion *expansion, uint32_t row, FrPose pose,
+                        FrEvaluator *evaluator, vec3s *down, vec3s *shine) {
+    const FrNodes *nodes = &expansion->plant->nodes;
+    FrFields fields = fr_instance_fields(expansion, row, evaluator);
+    vec3s place = pose.offset;
+    if (pose.bearer != FR_NONE) {
+        place = fr_turned(nodes->frame[pose.bearer], place);
+        place = glms_vec3_add(nodes->position[pose.bearer], place);
+    }
+    double at[3] = {(double)place.x, (double)place.y, (double)place.z}, field[3];
+    fr_field_gravity(&fields, at, field);
+    *down = direction_of(field, *down);
+    fr_field_light(&fields, at, field);
+    *shine = direction_of(field, *shine);
+}
+
+static versors leaf_rotation(const FrExpansion *expansion, uint32_t row, FrPose pose,
                              FrEvaluator *evaluator) {
+    const FrLeafParams *leaf = prepared_of(expansion, row)->params;
     double light = fr_value(evaluator, &leaf->phototropism, FR_LEAF_phototropism);
     double weight = fr_value(evaluator, &leaf->gravitropism, FR_LEAF_gravitropism);
     if (light == 0 && weight == 0) {
@@ -110,12 +139,16 @@ static versors leaf_rotation(const FrExpansion *expansion, const FrLeafParams *l
     }
     versors bearer = pose.bearer != FR_NONE ? expansion->plant->nodes.frame[pose.bearer] : identity;
     versors frame = fr_frame_step(bearer, pose.rotation);
+    vec3s down = {{0, 0, -1}}, shine = {{0, 0, 1}};
+    if (expansion->level.field[row] != FR_NONE) {
+        leaf_fields(expansion, row, pose, evaluator, &down, &shine);
+    }
     if (weight != 0) {
-        vec3s along = {{0, 0, weight > 0 ? -1.0f : 1.0f}};
+        vec3s along = weight > 0 ? down : glms_vec3_negate(down);
         frame = turned_towards(frame, fr_frame_heading(frame), along, fabs(weight));
     }
     if (light != 0) {
-        frame = turned_towards(frame, fr_frame_up(frame), (vec3s){{0, 0, 1}}, light);
+        frame = turned_towards(frame, fr_frame_up(frame), shine, light);
     }
     versors back = {{-bearer.x, -bearer.y, -bearer.z, bearer.w}};
     return fr_frame_step(back, frame);
@@ -143,8 +176,7 @@ static void make_leaf(const FrExpansion *expansion, uint32_t row, FrEvaluator *e
     const FrLevel *level = &expansion->level;
     FrPose pose = fr_instance_pose(expansion, row, evaluator);
     FrPose placed = pose;
-    placed.rotation =
-        leaf_rotation(expansion, prepared_of(expansion, row)->params, pose, evaluator);
+    placed.rotation = leaf_rotation(expansion, row, pose, evaluator);
     uint32_t organ = level->organ_count[row];
     fr_write_organ(expansion, row, organ, placed, leaf_shape(expansion, row, organ, evaluator));
     if (fr_instance_stage(expansion, row)->link_count > 0) {
@@ -241,8 +273,8 @@ static void make_string(const FrExpansion *expansion, uint32_t row, const FrStem
 }
 
 // Makes axis and nodes; returns the pose at the tip.
-static FrPose grow_stem(const FrExpansion *expansion, uint32_t row, const FrStem *stem,
-                        FrPose pose) {
+static FrPose grow_stem(const FrExpansion *expansion, uint32_t row, const FrStem *stem, FrPose pose,
+                        FrEvaluator *evaluator) {
     const FrLevel *level = &expansion->level;
     const FrStemParams *params = stem->prepared->params;
     FrPose tip = pose;
@@ -250,7 +282,7 @@ static FrPose grow_stem(const FrExpansion *expansion, uint32_t row, const FrStem
         uint32_t axis = level->axis_count[row], first = level->node_count[row];
         bool continues = level->joint[row] == FR_JOINT_TIP && !pose.is_turned_or_moved;
         unsigned flags = (continues ? FR_CONTINUES : 0u) |
-                         (params->tip == FR_TIP_FLAT ? FR_CUT : 0u) |
+                         (params->tip == FR_TIP_FLAT || stem->whole < 1 ? FR_CUT : 0u) |
                          (params->course == FR_COURSE_STEPS ? FR_POINT_SETS : 0u) |
                          (params->primitive > FR_PRIMITIVE_AREA ? FR_HIDDEN : 0u);
         FrPose base = pose;
@@ -259,7 +291,8 @@ static FrPose grow_stem(const FrExpansion *expansion, uint32_t row, const FrStem
             base = fr_pose_moved(pose, glms_vec3_scale(start, (float)pose.scale), identity);
         }
         write_axis(expansion, row, axis, base, fr_stem_radius(stem, 0), (uint16_t)flags);
-        tip.rotation = fr_stem_grow(stem, expansion->plant, axis, first, pose.rotation);
+        FrFields fields = fr_instance_fields(expansion, row, evaluator);
+        tip.rotation = fr_stem_grow(stem, expansion->plant, axis, first, pose.rotation, &fields);
         tip.bearer = first + stem->internodes - 1;
         tip.offset = nowhere;
     }
@@ -275,7 +308,7 @@ void fr_make_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evalu
     FrPose pose = fr_instance_pose(expansion, row, evaluator);
     FrStem stem = fr_stem_measure(prepared_of(expansion, row), evaluator,
                                   fr_instance_stem_base(expansion, row, pose.scale));
-    FrPose tip = grow_stem(expansion, row, &stem, pose);
+    FrPose tip = grow_stem(expansion, row, &stem, pose, evaluator);
     uint32_t at = level->child_count[row];
     if (level->places[row] > 0) {
         at = fr_make_branches(expansion, row, &stem, pose, evaluator, place, at);
@@ -306,6 +339,7 @@ static void make_choice(const FrExpansion *expansion, uint32_t row, FrEvaluator 
     if (level->joint[row] == FR_JOINT_TIP && !pose.is_turned_or_moved) {
         child.joint = FR_JOINT_TIP;
     }
+    child.stretch = level->stretch[row];
     fr_child_write(expansion, row, link, &child, level->child_count[row]);
 }
 
@@ -339,6 +373,12 @@ void fr_instance_make(const FrExpansion *expansion, uint32_t row, FrEvaluator *e
         break;
     case FR_COMPONENT_VARIATION:
         make_choice(expansion, row, evaluator);
+        break;
+    case FR_COMPONENT_FFD:
+    case FR_COMPONENT_HYPERPATCH:
+    case FR_COMPONENT_WORLD:
+    case FR_COMPONENT_FORCE:
+        fr_make_global(expansion, row, evaluator);
         break;
     default:
         fr_make_single_children(

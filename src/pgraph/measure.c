@@ -1,5 +1,6 @@
 // Counting what an instance makes before anything is made.
 #include "pgraph/choice.h"
+#include "pgraph/global.h"
 #include "pgraph/instance.h"
 
 #include <math.h>
@@ -39,6 +40,7 @@ void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator
     level->node_count[row] = 0;
     level->axis_count[row] = 0;
     level->organ_count[row] = 0;
+    level->global_count[row] = fr_is_global(prepared->kind);
     switch (prepared->kind) {
     case FR_COMPONENT_HORN:
     case FR_COMPONENT_TREE:

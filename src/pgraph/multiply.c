@@ -15,6 +15,8 @@ typedef struct Branching {
     uint32_t row;
     uint32_t place; // the one that `at` is of
     double at;      // along the stem
+    double sweep;
+    const FrCurve *crown; // NULL: none
 } Branching;
 
 static bool is_on_surface(const FrTreeParams *tree, const FrPrepared *child) {
@@ -52,6 +54,26 @@ static double height_of(const FrPlant *plant, FrPose site) {
     return (double)(plant->nodes.position[site.bearer].z + site.offset.z * heading.z);
 }
 
+// All around the stem the turn is as it is; a narrower sector has it drawn together about the y
+// axis, the upper side.
+static double swept(double azimuth, double sweep) {
+    if (sweep >= 2 * PI - 1e-9) {
+        return azimuth;
+    }
+    double turns = azimuth / (2 * PI) + 0.5;
+    return PI / 2 + (turns - floor(turns) - 0.5) * sweep;
+}
+
+static double crown_at(const Branching *branching) {
+    const FrPlaces *places = &branching->stem->places;
+    double reach = places->end - places->start;
+    if (branching->crown == NULL) {
+        return 1;
+    }
+    return fmax(0, fr_curve_eval(branching->crown,
+                                 reach > 0 ? (branching->at - places->start) / reach : 0));
+}
+
 // Poses branch b. *reach receives the way from axis to surface.
 static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evaluator,
                            FrEvaluator *place, vec3s *reach) {
@@ -71,7 +93,7 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
     }
 #define FR_GET(field) fr_value(place, &tree->field, FR_TREE_##field)
     double jitter = FR_GET(azimuth_jitter);
-    double azimuth = fr_branch_azimuth(places, b) + FR_GET(azimuth);
+    double azimuth = swept(fr_branch_azimuth(places, b), branching->sweep) + FR_GET(azimuth);
     azimuth += jitter != 0 ? jitter * fr_random_signed(key, FR_TREE_azimuth_jitter, 1) : 0;
     versors turn = fr_turned_zyz(azimuth, FR_GET(branching_angle), PI / 2 + FR_GET(roll));
     double radius = fr_stem_radius(stem, branching->at);
@@ -96,6 +118,7 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
         .x = (float)branching->at,
         .parent_length = (float)(stem->length / branching->base.scale),
         .parent_radius = (float)(radius / branching->base.scale),
+        .stretch = (float)crown_at(branching),
         .axis = FR_NONE,
     };
 }
@@ -111,7 +134,9 @@ uint32_t fr_make_branches(const FrExpansion *expansion, uint32_t row, const FrSt
         .base = base,
         .row = row,
         .place = FR_NONE,
+        .crown = stem->prepared->crown,
     };
+    branching.sweep = fr_value(evaluator, &branching.tree->sweep, FR_TREE_sweep);
     for (uint32_t b = 0; b < count; b++) {
         if (!fr_is_wanted(expansion, stage, b, count)) {
             continue;

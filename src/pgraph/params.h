@@ -42,12 +42,18 @@
     X(CURVE, profile, "", 0, 0, "", "", "radius along the stem, in radii; instead of taper")       \
     X(NUMBER, min_radius, "0.0005", 0, 100, "m", "", "never thinner than this")                    \
     X(NUMBER, flatness, "1", 0.001, 1000, "", "", "thickness along y over that along x")           \
+    X(NUMBER, flare, "0", 0, 20, "", "", "how much wider the foot is, in radii")                   \
+    X(REAL, flare_height, "0.1", 0.001, 1, "", "", "height of the wide foot, part of the length")  \
     X(POINTS, section, "", 0, 0, "", "", "cross-section of radius 1; empty: a circle")             \
+    X(INTEGER, lobes, "0", 0, 32, "", "", "ribs of the cross-section, if section is empty")        \
+    X(REAL, lobe_depth, "0.15", 0, 0.9, "", "", "depth of the grooves between them, in radii")     \
     X(CHOICE, primitive, "tube", 0, 0, "",                                                         \
       "tube area box sphere cone cylinder torus square circle triangle none",                      \
       "a closed tube, an open area, or a string of objects")                                       \
     X(INTEGER, detail, "12", 3, 128, "", "", "segments around an object of a string")              \
     X(CHOICE, tip, "pointed", 0, 0, "", "pointed flat", "end of the stem")                         \
+    X(NUMBER, break_chance, "0", 0, 1, "", "", "probability that it is broken off, flat")          \
+    X(NUMBER, break_at, "0.6", 0.01, 1, "", "", "where along the stem it then ends")               \
     X(INTEGER, segments, "0", 0, 1000, "", "", "internodes, objects of a string; 0: as needed")    \
     X(NUMBER, curvature, "0", -3600, 3600, "deg", "",                                              \
       "turn from base to tip, towards its y axis: up on a branch")                                 \
@@ -79,12 +85,18 @@
       "half a gap free at start and end, or branches exactly there")                               \
     X(CURVE, density_curve, "", 0, 0, "", "", "relative density along the stem")                   \
     X(NUMBER, regularity, "1", 0, 1, "", "", "1 evenly spaced, 0 at random within each gap")       \
-    X(INTEGER, whorl, "1", 1, 64, "", "", "branches at each place")                                \
+    X(NUMBER, whorl, "1", 1, 64, "", "", "branches at each place")                                 \
     X(CHOICE, phyllotaxis, "spiral", 0, 0, "", "spiral distichous decussate alternate custom",     \
       "turn between places: 137.5, 180, 90 in pairs, 144, or azimuth-step")                        \
     X(NUMBER, azimuth_step, "137.50776405", -3600, 3600, "deg", "", "turn for custom")             \
     X(CHOICE, placement, "auto", 0, 0, "", "auto axis surface",                                    \
       "where branches begin; auto: stems on the axis, organs on the surface")                      \
+    X(NUMBER, sweep, "360", 0, 360, "deg", "",                                                     \
+      "sector around the upper side that they keep to; azimuth=180 takes it below")                \
+    X(CHOICE, crown, "none", 0, 0, "",                                                             \
+      "none conical spherical hemispherical cylindrical tapered-cylindrical flame "                \
+      "inverse-conical tend-flame",                                                                \
+      "length of branches from start to end as in the crowns of Weber and Penn")                   \
     X(NUMBER, azimuth, "0", -36000, 36000, "deg", "", "turn of each about the stem")               \
     X(NUMBER, azimuth_jitter, "0", 0, 180, "deg", "", "random turn about the stem")                \
     X(NUMBER, branching_angle, "45", -180, 180, "deg", "", "angle between branch and stem")        \
@@ -175,6 +187,7 @@ enum {
     FR_PRIMITIVE_NONE = 10,
 };
 enum { FR_TIP_POINTED, FR_TIP_FLAT };
+enum { FR_CROWN_NONE };
 enum { FR_BRANCHES_BY_NUMBER, FR_BRANCHES_BY_DENSITY, FR_BRANCHES_BY_INTERNODE };
 enum { FR_SPACING_MIDDLE, FR_SPACING_ENDS };
 enum {
@@ -186,4 +199,5 @@ enum {
 };
 enum { FR_PLACE_AUTO, FR_PLACE_ON_AXIS, FR_PLACE_ON_SURFACE };
 
+#include "pgraph/params_global.h"
 #include "pgraph/params_spread.h"

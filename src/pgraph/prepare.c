@@ -1,6 +1,7 @@
 #include "pgraph/prepare.h"
 
 #include "pgraph/choice.h"
+#include "pgraph/global.h"
 #include "pgraph/revolved.h"
 
 #include <math.h>
@@ -153,10 +154,9 @@ static double total_bend(const FrCurve *curve) {
     return bend;
 }
 
-GArray *fr_stem_path_points(const FrPrototype *prototype, FrDiags *diags) {
-    const FrStemParams *stem = prototype->params;
+GArray *fr_path_points(const char *path, const FrPrototype *prototype, FrDiags *diags) {
     GArray *points = g_array_new(FALSE, FALSE, sizeof(vec3s));
-    char **words = g_strsplit_set(stem->path != NULL ? stem->path : "", " \t\r\n", -1);
+    char **words = g_strsplit_set(path != NULL ? path : "", " \t\r\n", -1);
     bool is_right = true;
     for (char **word = words; *word != NULL && is_right; word++) {
         vec3s point;
@@ -185,7 +185,7 @@ GArray *fr_stem_path_points(const FrPrototype *prototype, FrDiags *diags) {
 // The ends of the internodes of a stem along its path: evenly spaced points of the spline.
 static GArray *sample_path(const FrPrototype *prototype) {
     const FrStemParams *stem = prototype->params;
-    GArray *points = fr_stem_path_points(prototype, NULL);
+    GArray *points = fr_path_points(stem->path, prototype, NULL);
     FR_ASSERT(points != NULL);
     FrPath *path = fr_path_new((const vec3s *)(void *)points->data, points->len);
     uint32_t count = stem->segments > 0
@@ -205,6 +205,32 @@ static GArray *sample_path(const FrPrototype *prototype) {
     return points;
 }
 
+static FrCurve *crown_curve(int crown) {
+    if (crown == FR_CROWN_NONE) {
+        return NULL;
+    }
+    const FrParam *row = &fr_pgraph_table(FR_COMPONENT_TREE)->rows[FR_TREE_crown];
+    char *name = fr_param_choice(row, crown);
+    FrCurve *curve = fr_curve_builtin(name);
+    FR_ASSERT(curve != NULL);
+    g_free(name);
+    return curve;
+}
+
+// A circle with grooves, as wide as 1.
+static uint32_t add_lobes(FrPlant *plant, int64_t lobes, double depth) {
+    enum { POINTS_OF_LOBE = 8, MOST_LOBES = 32 };
+    double points[POINTS_OF_LOBE * MOST_LOBES][2];
+    uint32_t count = (uint32_t)MIN(lobes, MOST_LOBES) * POINTS_OF_LOBE;
+    for (uint32_t k = 0; k < count; k++) {
+        double angle = 2 * G_PI * k / count;
+        double radius = 1 - 0.5 * depth * (1 - cos((double)lobes * angle));
+        points[k][0] = radius * cos(angle);
+        points[k][1] = radius * sin(angle);
+    }
+    return fr_plant_add_profile(plant, (const double(*)[2])points, count, true);
+}
+
 static void prepare_stem(FrPrepared *made, const FrPrototype *prototype, FrPlant *plant) {
     const FrStemParams *stem = prototype->params;
     made->is_stem = true;
@@ -213,6 +239,9 @@ static void prepare_stem(FrPrepared *made, const FrPrototype *prototype, FrPlant
     made->profile = stem->primitive <= FR_PRIMITIVE_AREA
                         ? add_section(plant, &stem->section, stem->primitive == FR_PRIMITIVE_TUBE)
                         : FR_NONE;
+    if (stem->lobes > 1 && stem->section.count < 2 && stem->primitive == FR_PRIMITIVE_TUBE) {
+        made->profile = add_lobes(plant, stem->lobes, stem->lobe_depth);
+    }
     // Objects of radius 1, placed with the stem's radius as their scale.
     made->shape = add_primitive(plant, stem->primitive, (vec3s){{2, 2, 2}}, stem->detail);
     made->bend_factor = total_bend(stem->curvature_curve);
@@ -222,6 +251,7 @@ static void prepare_stem(FrPrepared *made, const FrPrototype *prototype, FrPlant
     if (prototype->kind == FR_COMPONENT_TREE) {
         const FrTreeParams *tree = prototype->params;
         made->density = cumulate_density(tree->density_curve);
+        made->crown = crown_curve(tree->crown);
     }
 }
 
@@ -346,8 +376,30 @@ static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t compon
     case FR_COMPONENT_LEAF:
         prepare_leaf(made, graph, prototype, plant, faults);
         break;
+    case FR_COMPONENT_FFD:
+    case FR_COMPONENT_HYPERPATCH:
+    case FR_COMPONENT_WORLD:
+    case FR_COMPONENT_FORCE:
+        fr_prepare_global(made, prototype, component, plant, faults);
+        break;
     default:
         break;
+    }
+}
+
+// What only passes on what follows stands where a stem does if a stem follows.
+static void note_stems(FrPrepared *prepared, const FrPgraph *graph) {
+    bool is_new = true;
+    while (is_new) {
+        is_new = false;
+        for (uint32_t k = 0; k < graph->links->len; k++) {
+            const FrPgraphLink *link = fr_pgraph_link_at(graph, k);
+            FrPrepared *from = &prepared[link->from];
+            bool passes_on = from->kind == FR_COMPONENT_VARIATION || fr_is_global(from->kind);
+            if (passes_on && !from->is_stem && prepared[link->to].is_stem) {
+                from->is_stem = is_new = true;
+            }
+        }
     }
 }
 
@@ -375,9 +427,8 @@ FrStatus fr_prepare(FrPrepared **prepared_out, const FrPgraph *graph,
         FrPrepared *from = &prepared[link->from];
         from->bears |=
             fr_is_spreading(from->kind) || (from->kind == FR_COMPONENT_TREE && is_branch);
-        // A variation of stems begins where a stem does.
-        from->is_stem |= from->kind == FR_COMPONENT_VARIATION && prepared[link->to].is_stem;
     }
+    note_stems(prepared, graph);
     return FR_OK;
 }
 
@@ -386,6 +437,7 @@ void fr_prepared_free(FrPrepared *prepared, uint32_t count) {
         fr_flags_clear(&prepared[c].flags);
         g_free(prepared[c].variants);
         g_free(prepared[c].density);
+        fr_curve_unref(prepared[c].crown);
         fr_revolved_free(prepared[c].revolved);
         g_clear_pointer(&prepared[c].weights, g_array_unref);
         if (prepared[c].path != NULL) {

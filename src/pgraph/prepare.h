@@ -36,6 +36,7 @@ typedef struct FrPrepared {
     uint32_t variant_count, *variants; ///< shapes for FR_SHAPE_VARIANT; owned
     FrShape blade;                     ///< of a leaf: outline and curves filled in
     double bend_factor;                ///< how far the stem turns for each degree of curvature
+    FrCurve *crown;                    ///< of a tree: length of its branches; owned; NULL
     FrDensity *density;                ///< of a tree with a density curve; owned
     GArray *path;                      ///< of a stem along a path: vec3s, ends of internodes; owned
     const FrNumber *number;            ///< of children, of a multiplier that has one; NULL
@@ -43,6 +44,8 @@ typedef struct FrPrepared {
     uint32_t number_times;             ///< … and how often it has so many
     struct FrRevolved *revolved;       ///< surface of a phyllotaxis; owned
     GArray *weights;                   ///< FrWeight, of a variation; owned
+    uint32_t deformation;              ///< of an FFD or hyperpatch, of the plant
+    double step;                       ///< m, of internodes in a scope or field
     double low, top;                   ///< of a revo: its lowest point; where its outline ends
 } FrPrepared;
 
@@ -61,8 +64,8 @@ FrKey fr_variant_key(const FrPgraph *graph, const FrPrepared *prepared, uint32_t
 /// The material a component names: an index into the graph's, FR_NONE if it names none.
 FrStatus fr_find_material(const FrPgraph *graph, uint32_t component, uint32_t *material,
                           FrDiags *diags);
-/// The points of a stem's `path`, at least two (vec3s), or NULL and an error.
-GArray *fr_stem_path_points(const FrPrototype *prototype, FrDiags *diags);
+/// The points of a `path`, at least two (vec3s), or NULL and an error.
+GArray *fr_path_points(const char *path, const FrPrototype *prototype, FrDiags *diags);
 /// All checks; without warnings for graphs that are about to be built.
 FrStatus fr_pgraph_check_all(const FrPgraph *graph, const FrRecursions *recursions, FrDiags *diags,
                              bool with_warnings);

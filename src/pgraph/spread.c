@@ -73,6 +73,7 @@ void fr_spread_write(FrSpread *spread, uint32_t i, FrPose site) {
         .x = level->x[spread->row],
         .parent_length = level->parent_length[spread->row],
         .parent_radius = level->parent_radius[spread->row],
+        .stretch = 1,
         .axis = FR_NONE,
     };
     for (uint32_t k = 0; k < spread->stage->link_count; k++) {

@@ -7,6 +7,7 @@
 #define DEGREE (PI / 180)
 
 enum { MOST_ADAPTIVE = 256, INTERNODES_OF_PROFILE = 8, MOST_BEADS = 1000 };
+enum { INTERNODES_OF_FLARE = 4, MOST_FOR_FLARE = 32 };
 
 // An internode for so many radians of turn, so few that no joint shows, and some for any bend.
 #define BEND_PER_INTERNODE (4.5 * DEGREE)
@@ -46,6 +47,12 @@ static uint32_t adaptive_internodes(const FrStem *stem) {
     if (params->profile != NULL) {
         count = fmax(count, INTERNODES_OF_PROFILE);
     }
+    if (stem->flare > 0) {
+        count = fmax(count, fmin(INTERNODES_OF_FLARE / params->flare_height, MOST_FOR_FLARE));
+    }
+    if (stem->step > 0) {
+        count = fmax(count, stem->length / stem->step);
+    }
     return (uint32_t)fmin(fmax(ceil(count - 1e-9), 1), MOST_ADAPTIVE);
 }
 
@@ -69,10 +76,12 @@ static FrPlaces measure_places(const FrStem *stem, FrEvaluator *evaluator, doubl
     double start = fr_value(evaluator, &tree->start, FR_TREE_start);
     double end = fr_value(evaluator, &tree->end, FR_TREE_end);
     bool is_decussate = tree->phyllotaxis == FR_PHYLLOTAXIS_DECUSSATE;
+    double whorl = floor(fr_value(evaluator, &tree->whorl, FR_TREE_whorl) + 0.5);
+    // Places are parts of what a break has left.
     FrPlaces places = {
-        .whorl = (uint32_t)MAX(tree->whorl, is_decussate ? 2 : 1),
-        .start = fmin(start, end),
-        .end = fmax(start, end),
+        .whorl = (uint32_t)fmax(whorl, is_decussate ? 2 : 1),
+        .start = fmin(fmin(start, end) / stem->whole, 1),
+        .end = fmin(fmax(start, end) / stem->whole, 1),
         .irregularity = 1 - fr_value(evaluator, &tree->regularity, FR_TREE_regularity),
         .divergence = divergence_of(tree, evaluator),
         .is_at_ends = tree->spacing == FR_SPACING_ENDS,
@@ -82,6 +91,8 @@ static FrPlaces measure_places(const FrStem *stem, FrEvaluator *evaluator, doubl
     double reach = (places.end - places.start) * stem->length;
     if (tree->mode == FR_BRANCHES_BY_NUMBER) {
         double number = fr_value(evaluator, &tree->number, FR_TREE_number);
+        double whole = fabs(end - start), left = (places.end - places.start) * stem->whole;
+        number *= stem->whole < 1 && whole > 0 ? left / whole : 1;
         places.branches = clamp_count(floor(number + 0.5));
     } else if (tree->mode == FR_BRANCHES_BY_DENSITY) {
         double density = fr_value(evaluator, &tree->density, FR_TREE_density) / scale;
@@ -149,11 +160,13 @@ static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase bas
 #define FR_GET(field) fr_value(evaluator, &params->field, FR_STEM_##field)
     bool is_relative = params->length_mode == FR_SIZE_OF_PARENT && base.has_parent;
     stem->length = FR_GET(length) * base.scale * (is_relative ? base.parent_length : 1);
+    stem->length *= base.stretch;
     is_relative = params->radius_mode == FR_SIZE_OF_PARENT && base.has_parent;
     stem->radius = FR_GET(radius) * base.scale * (is_relative ? base.parent_radius : 1);
     stem->taper = FR_GET(taper);
     stem->min_radius = FR_GET(min_radius);
     stem->flatness = FR_GET(flatness);
+    stem->flare = FR_GET(flare);
     stem->curvature = FR_GET(curvature);
     stem->twist = FR_GET(twist);
     stem->gnarl = FR_GET(gnarl);
@@ -167,10 +180,33 @@ static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase bas
 #undef FR_GET
 }
 
+// What is left of a broken stem is as if it went on to where it was.
+static void measure_break(FrStem *stem, FrEvaluator *evaluator) {
+    const FrStemParams *params = stem->prepared->params;
+    stem->whole = 1;
+    if (params->course != FR_COURSE_GROWN) {
+        return;
+    }
+    double chance = fr_value(evaluator, &params->break_chance, FR_STEM_break_chance);
+    if (chance > 0 && fr_random(stem->key, FR_STEM_break_chance, 1) < chance) {
+        stem->whole = fr_value(evaluator, &params->break_at, FR_STEM_break_at);
+        stem->length *= stem->whole;
+        stem->twist *= stem->whole;
+        stem->gnarl_frequency *= stem->whole;
+    }
+}
+
 FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrStemBase base) {
     const FrStemParams *params = prepared->params;
-    FrStem stem = {.prepared = prepared, .scale = base.scale, .key = evaluator->vars.key};
+    FrStem stem = {
+        .prepared = prepared,
+        .scale = base.scale,
+        .key = evaluator->vars.key,
+        .step = base.step,
+        .is_in_field = base.is_in_field,
+    };
     measure_numbers(&stem, evaluator, base);
+    measure_break(&stem, evaluator);
     if (params->course == FR_COURSE_STEPS) {
         measure_steps(&stem, params, evaluator);
     } else if (params->course == FR_COURSE_PATH) {
@@ -197,9 +233,13 @@ double fr_stem_radius(const FrStem *stem, double at) {
     if (params->course == FR_COURSE_STEPS) {
         radius = stem->radius * fmin(pow(stem->step_scale, at * stem->internodes), 1e6);
     } else if (params->profile != NULL) {
-        radius = stem->radius * fr_curve_eval(params->profile, at);
+        radius = stem->radius * fr_curve_eval(params->profile, at * stem->whole);
     } else {
-        radius = stem->radius * (1 - stem->taper * at);
+        radius = stem->radius * (1 - stem->taper * at * stem->whole);
+    }
+    if (stem->flare > 0 && at * stem->whole < params->flare_height) {
+        double above = 1 - at * stem->whole / params->flare_height;
+        radius += stem->radius * stem->flare * above * above * above;
     }
     return fmax(radius, stem->min_radius);
 }

@@ -22,8 +22,9 @@ typedef struct Walk {
 static double bend_up_to(const FrStem *stem, double at) {
     const FrStemParams *params = stem->prepared->params;
     if (params->curvature_curve == NULL) {
-        return stem->curvature * at;
+        return stem->curvature * at * stem->whole;
     }
+    at *= stem->whole;
     return stem->curvature * (fr_curve_integral(params->curvature_curve, at) -
                               fr_curve_integral(params->curvature_curve, 0));
 }
@@ -62,14 +63,52 @@ static versors walk_to(const FrStem *stem, Walk *walk, double at, double zigzag_
     return turn;
 }
 
-// Adds to `turn`, given in the frame `parent`, what the fields turn the stem by over `step`.
-static versors with_fields(const FrStem *stem, versors parent, versors turn, double step) {
-    versors field = fr_tropism_turn(stem->tropism, fr_frame_step(parent, turn), step);
+// The same turn as the parent sees it, before which the stem had turned by `turn`.
+static versors turned_further(versors parent, versors turn, versors field) {
     versors back = {{-parent.x, -parent.y, -parent.z, parent.w}};
     // The same rotation about its axis as the parent sees it.
     vec3s axis = fr_turned(back, (vec3s){{field.x, field.y, field.z}});
     versors own = {{axis.x, axis.y, axis.z, field.w}};
     return fr_frame_step(own, turn);
+}
+
+static versors frame_before(const FrPlant *plant, uint32_t axis, uint32_t first, uint32_t k) {
+    uint32_t before = k > 0 ? first + k - 1 : plant->axes.bearer[axis];
+    return before != FR_NONE ? plant->nodes.frame[before] : identity;
+}
+
+// Where the walk is: in the middle of the internode before.
+static vec3s walk_place(const FrPlant *plant, uint32_t axis, uint32_t first, uint32_t k) {
+    if (k == 0) {
+        return fr_plant_axis_origin(plant, axis);
+    }
+    uint32_t before = first + k - 1;
+    return fr_advanced(plant->nodes.position[before], plant->nodes.frame[before],
+                       -0.5f * plant->nodes.length[before]);
+}
+
+// Adds to `turn` what the fields turn the stem by over `step`, before internode k.
+static versors with_fields(const FrStem *stem, const FrPlant *plant, uint32_t axis, uint32_t first,
+                           uint32_t k, versors turn, double step, const FrFields *fields) {
+    versors parent = frame_before(plant, axis, first, k);
+    versors frame = fr_frame_step(parent, turn);
+    if (!stem->is_in_field) {
+        return turned_further(parent, turn, fr_tropism_turn(stem->tropism, frame, step));
+    }
+    FrDraw draw = {.tropism = stem->tropism, .length = stem->length};
+    vec3s from = walk_place(plant, axis, first, k);
+    return turned_further(parent, turn, fr_field_turn(fields, &draw, frame, from, step));
+}
+
+// Adds to `turn` what keeps internode k out of what is solid.
+static versors deflected(const FrStem *stem, const FrPlant *plant, uint32_t axis, uint32_t first,
+                         uint32_t k, versors turn, double length, const FrFields *fields) {
+    versors parent = frame_before(plant, axis, first, k), aside;
+    vec3s from = k > 0 ? plant->nodes.position[first + k - 1] : fr_plant_axis_origin(plant, axis);
+    double radius = 1.1 * fr_stem_radius(stem, fr_stem_node_end(stem, k));
+    bool is_turned =
+        fr_field_deflect(fields, fr_frame_step(parent, turn), from, length, radius, &aside);
+    return is_turned ? turned_further(parent, turn, aside) : turn;
 }
 
 static void write_node(FrPlant *plant, uint32_t axis, uint32_t node, uint32_t first,
@@ -88,11 +127,6 @@ static void write_node(FrPlant *plant, uint32_t axis, uint32_t node, uint32_t fi
     fr_update_frame(nodes, &plant->axes, node);
 }
 
-static versors frame_before(const FrPlant *plant, uint32_t axis, uint32_t first, uint32_t k) {
-    uint32_t before = k > 0 ? first + k - 1 : plant->axes.bearer[axis];
-    return before != FR_NONE ? plant->nodes.frame[before] : identity;
-}
-
 // Whether every internode but the first turns by the same, fields not counted.
 static bool is_steady(const FrStem *stem) {
     const FrStemParams *params = stem->prepared->params;
@@ -100,11 +134,11 @@ static bool is_steady(const FrStem *stem) {
 }
 
 static versors grow_evenly(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t first,
-                           versors start) {
+                           versors start, const FrFields *fields) {
     Walk walk = {0};
     double end = 0;
     uint32_t each = stem->gaps > 0 ? stem->internodes / stem->gaps : stem->internodes;
-    bool steady = is_steady(stem), has_fields = fr_tropism_acts(stem->tropism);
+    bool steady = is_steady(stem), has_fields = fr_tropism_acts(stem->tropism) || stem->is_in_field;
     versors turn = identity;
     for (uint32_t k = 0; k < stem->internodes; k++) {
         double begin = end, zigzag_x = 0, zigzag_y = 0;
@@ -121,7 +155,10 @@ static versors grow_evenly(const FrStem *stem, FrPlant *plant, uint32_t axis, ui
         walk.at = middle;
         versors own = k > 0 ? turn : fr_frame_step(start, turn);
         if (has_fields) {
-            own = with_fields(stem, frame_before(plant, axis, first, k), own, step);
+            own = with_fields(stem, plant, axis, first, k, own, step, fields);
+        }
+        if (stem->is_in_field) {
+            own = deflected(stem, plant, axis, first, k, own, (end - begin) * stem->length, fields);
         }
         write_node(plant, axis, first + k, first, own, (end - begin) * stem->length,
                    fr_stem_radius(stem, end), stem->flatness);
@@ -129,9 +166,8 @@ static versors grow_evenly(const FrStem *stem, FrPlant *plant, uint32_t axis, ui
     double step = 1 - walk.at;
     walk.bend = bend_up_to(stem, walk.at);
     turn = walk_to(stem, &walk, 1, 0, 0);
-    return has_fields
-               ? with_fields(stem, plant->nodes.frame[first + stem->internodes - 1], turn, step)
-               : turn;
+    return has_fields ? with_fields(stem, plant, axis, first, stem->internodes, turn, step, fields)
+                      : turn;
 }
 
 static versors grow_steps(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t first,
@@ -176,7 +212,7 @@ static versors grow_path(const FrStem *stem, FrPlant *plant, uint32_t axis, uint
 }
 
 versors fr_stem_grow(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t first,
-                     versors start) {
+                     versors start, const FrFields *fields) {
     const FrStemParams *params = stem->prepared->params;
     if (stem->internodes == 0) {
         return start;
@@ -189,6 +225,6 @@ versors fr_stem_grow(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t
     case FR_COURSE_STEPS:
         return grow_steps(stem, plant, axis, first, start);
     default:
-        return grow_evenly(stem, plant, axis, first, start);
+        return grow_evenly(stem, plant, axis, first, start, fields);
     }
 }

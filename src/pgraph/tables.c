@@ -42,6 +42,21 @@ static const FrParam variation_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW)
 static const FrParam revo_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_REVO_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
 
+#define FR_PARAM_STRUCT FrFfdParams
+static const FrParam ffd_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_SCOPE_PARAMS(FR_PARAM_ROW)
+                                       FR_FFD_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrHyperpatchParams
+static const FrParam hyperpatch_rows[] = {
+    FR_BASIC_PARAMS(FR_PARAM_ROW) FR_SCOPE_PARAMS(FR_PARAM_ROW) FR_HYPERPATCH_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrWorldParams
+static const FrParam world_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_WORLD_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrForceParams
+static const FrParam force_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_FORCE_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+
 #define TABLE(name, kind, type, text)                                                              \
     [FR_COMPONENT_##kind] = {.element = #name,                                                     \
                              .meaning = text,                                                      \
@@ -65,6 +80,11 @@ static const FrParamTable tables[FR_COMPONENT_COUNT] = {
     TABLE(scatter, SCATTER, FrScatterParams,
           "multiplies what follows, strewn evenly by chance over a disc, square or ring"),
     TABLE(variation, VARIATION, FrVariationParams, "makes one of what follows"),
+    TABLE(ffd, FFD, FrFfdParams, "deforms all that follows by functions"),
+    TABLE(hyperpatch, HYPERPATCH, FrHyperpatchParams,
+          "deforms all that follows by moving control points of a box"),
+    TABLE(world, WORLD, FrWorldParams, "gravity and light for all that follows"),
+    TABLE(force, FORCE, FrForceParams, "draws the stems of all that follows"),
 };
 
 const FrParamTable *fr_pgraph_table(FrComponentKind kind) {

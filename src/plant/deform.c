@@ -33,19 +33,17 @@ FrScopes *fr_scopes_new(const FrPlant *plant) {
         return NULL;
     }
     FrScopes *scopes = g_new(FrScopes, 1);
-    *scopes =
-        (FrScopes){.plant = plant,
-                   .stands = g_new0(FrScopeStand, plant->deformers->len),
-                   .has_triangles = g_new(bool, plant->deformers->len)};
+    *scopes = (FrScopes){.plant = plant,
+                         .stands = g_new0(FrScopeStand, plant->deformers->len),
+                         .has_triangles = g_new(bool, plant->deformers->len)};
     for (uint32_t s = 0; s < plant->deformers->len; s++) {
         const FrDeformer *scope = scope_at(scopes, s);
         const FrDeformation *deformation = deformation_of(scopes, scope);
         scopes->stands[s].made = scopes->stands[s].moved = made_stand(plant, scope);
         bool acts = deformation->kind != FR_DEFORM_NOTHING && scope->strength != 0;
         scopes->has_skeleton |= acts && deformation->is_skeleton;
-        scopes->has_triangles[s] =
-            (acts && !deformation->is_skeleton) ||
-            (scope->outer != FR_NONE && scopes->has_triangles[scope->outer]);
+        scopes->has_triangles[s] = (acts && !deformation->is_skeleton) ||
+                                   (scope->outer != FR_NONE && scopes->has_triangles[scope->outer]);
     }
     return scopes;
 }
@@ -90,8 +88,8 @@ bool fr_scopes_pass(const FrScopes *scopes, uint32_t scope, uint32_t end, FrDefo
         const FrScopeStand *stand = &scopes->stands[s];
         if (deformation->is_skeleton == is_skeleton) {
             FrDeformNote *note = notes != NULL ? &notes[deformer->deformation] : NULL;
-            fr_deform_map(scopes->plant, deformer, is_skeleton ? &stand->made : &stand->moved,
-                          flow, note);
+            fr_deform_map(scopes->plant, deformer, is_skeleton ? &stand->made : &stand->moved, flow,
+                          note);
         }
         if (deformation->is_cut) {
             FR_ASSERT(stand->is_known);
@@ -171,10 +169,10 @@ bool fr_scopes_move_vertex(const FrScopes *scopes, uint32_t scope, vec3s *at, ve
 void fr_deform_join_notes(FrDeformNote *to, const FrDeformNote *from, uint32_t count) {
     for (uint32_t d = 0; d < count; d++) {
         to[d].is_singular |= from[d].is_singular;
-        bool is_first = from[d].fault.code != NULL &&
-                        (to[d].fault.code == NULL || from[d].axis < to[d].axis ||
-                         (from[d].axis == to[d].axis &&
-                          from[d].fault.span.begin < to[d].fault.span.begin));
+        bool is_first =
+            from[d].fault.code != NULL &&
+            (to[d].fault.code == NULL || from[d].axis < to[d].axis ||
+             (from[d].axis == to[d].axis && from[d].fault.span.begin < to[d].fault.span.begin));
         if (is_first) {
             to[d].fault = from[d].fault;
             to[d].axis = from[d].axis;

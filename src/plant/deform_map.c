@@ -157,9 +157,9 @@ static void eval_functions(const FrDeformation *deformation, double amount, cons
     const double values[4] = {at[0], at[1], at[2], amount};
     for (int axis = 0; axis < 3; axis++) {
         FrExprFault fault = {0};
-        out[axis] = deformation->map[axis] == NULL ? at[axis]
-                                                   : fr_expr_eval_with(deformation->map[axis],
-                                                                       &nothing, values, &fault);
+        out[axis] = deformation->map[axis] == NULL
+                        ? at[axis]
+                        : fr_expr_eval_with(deformation->map[axis], &nothing, values, &fault);
         note_fault(note, &fault, axis);
     }
 }

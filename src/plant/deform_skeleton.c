@@ -150,8 +150,8 @@ static void move_node(const Mover *mover, uint32_t node) {
         float length = glms_vec3_norm(chord);
         if (length > 0) {
             vec3s heading = glms_vec3_normalize(fr_frame_heading(turned));
-            turned = fr_frame_step(
-                fr_rotation_between(heading, glms_vec3_divs(chord, length)), turned);
+            turned =
+                fr_frame_step(fr_rotation_between(heading, glms_vec3_divs(chord, length)), turned);
         }
         to->length[node] = length;
         to->rotation[node] =

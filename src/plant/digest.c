@@ -36,8 +36,8 @@ static FrDigest digest_deformation(FrDigest digest, const FrDeformation *deforma
         digest = fr_digest(digest, lattice->min, sizeof lattice->min);
         digest = fr_digest(digest, lattice->max, sizeof lattice->max);
         digest = fr_digest(digest, lattice->degree, sizeof lattice->degree);
-        digest = fr_digest(digest, lattice->points,
-                           fr_lattice_count(lattice) * sizeof *lattice->points);
+        digest =
+            fr_digest(digest, lattice->points, fr_lattice_count(lattice) * sizeof *lattice->points);
     }
     return digest;
 }

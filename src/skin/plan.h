@@ -118,7 +118,8 @@ static inline uint32_t fr_plan_next(const FrPlan *plan, uint32_t node) {
 
 /// The scope whose deformations move the vertices of what names `deformer`; FR_NONE without any.
 static inline uint32_t fr_plan_scope(const FrPlan *plan, uint32_t deformer) {
-    bool acts = plan->scopes != NULL && deformer != FR_NONE && plan->scopes->has_triangles[deformer];
+    bool acts =
+        plan->scopes != NULL && deformer != FR_NONE && plan->scopes->has_triangles[deformer];
     return acts ? deformer : FR_NONE;
 }
 

@@ -1,0 +1,222 @@
+// What turns a stem in fields that depend on where it is.
+//
+// In a constant field the angle α between stem and field decays as e^−κs. Here that solution is
+// taken over stretches so short that the field hardly changes, always the same number of them over
+// the whole stem. So the form of a stem does not depend on its internodes, nor does strength
+// overshoot.
+#include "pgraph/field.h"
+
+#include "pgraph/force.h"
+
+#include <math.h>
+
+#define PI 3.14159265358979323846
+
+// Stretches of the whole length of a stem.
+#define STRETCHES 96.0
+// Shorter vectors have no direction.
+#define SHORTEST 1e-12
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void formula(const FrFields *fields, const FrField *field, const FrExpr *const map[3],
+                    uint32_t parameter, const double local[3], double out[3]) {
+    static const FrVars nothing = {0};
+    double value[3];
+    for (int k = 0; k < 3; k++) {
+        FrExprFault fault = {0};
+        value[k] = map[k] != NULL ? fr_expr_eval_with(map[k], &nothing, local, &fault) : 0;
+        value[k] = fmax(-1e6, fmin(value[k], 1e6));
+        fr_value_note(fields->evaluator, field->component, parameter + (uint32_t)k, &fault);
+    }
+    for (int r = 0; r < 3; r++) {
+        out[r] = dot(field->axes[r], value);
+    }
+}
+
+// The nearest World around; NULL if there is none.
+static const FrField *world_of(const FrFields *fields) {
+    for (uint32_t f = fields->innermost; f != FR_NONE; f = fields->fields[f].outer) {
+        const FrField *field = &fields->fields[f];
+        if (fields->prepared[field->component].kind == FR_COMPONENT_WORLD) {
+            return field;
+        }
+    }
+    return NULL;
+}
+
+void fr_field_gravity(const FrFields *fields, const double at[3], double gravity[3]) {
+    const FrField *world = world_of(fields);
+    gravity[0] = gravity[1] = 0;
+    gravity[2] = -1;
+    if (world != NULL) {
+        const FrWorldParams *params = fields->prepared[world->component].params;
+        const FrExpr *const map[3] = {params->gravity_x, params->gravity_y, params->gravity_z};
+        double local[3];
+        fr_field_local(world, at, local);
+        formula(fields, world, map, FR_WORLD_gravity_x, local, gravity);
+    }
+}
+
+void fr_field_light(const FrFields *fields, const double at[3], double light[3]) {
+    const FrField *world = world_of(fields);
+    light[0] = light[1] = 0;
+    light[2] = 1;
+    if (world != NULL) {
+        const FrWorldParams *params = fields->prepared[world->component].params;
+        const FrExpr *const map[3] = {params->light_x, params->light_y, params->light_z};
+        double local[3];
+        fr_field_local(world, at, local);
+        formula(fields, world, map, FR_WORLD_light_x, local, light);
+    }
+}
+
+// ---- turning ----------------------------------------------------------------------------------
+
+// A stem on its way.
+typedef struct Way {
+    double heading[3];
+    double side[3]; ///< across it, for where nothing else says about what to turn
+    double turn[3]; ///< of the stretch: axis times angle
+} Way;
+
+// Adds the turn towards `field` over which the angle to it shrinks by e^−κ; across it where
+// `is_across`.
+static void draw(Way *way, const double field[3], double strength, bool is_across) {
+    double size = sqrt(dot(field, field));
+    if (size < SHORTEST || strength == 0) {
+        return;
+    }
+    const double *h = way->heading;
+    double axis[3] = {h[1] * field[2] - h[2] * field[1], h[2] * field[0] - h[0] * field[2],
+                      h[0] * field[1] - h[1] * field[0]};
+    double sine = sqrt(dot(axis, axis)), cosine = dot(h, field);
+    double angle = atan2(sine, cosine);
+    for (int k = 0; k < 3; k++) {
+        axis[k] = sine > 1e-9 * size ? axis[k] / sine : way->side[k];
+    }
+    double rest = is_across ? 0.5 * PI : 0;
+    double next = rest + (angle - rest) * exp(-strength * size);
+    next = fmax(0, fmin(next, PI));
+    for (int k = 0; k < 3; k++) {
+        way->turn[k] += (angle - next) * axis[k];
+    }
+}
+
+static void draw_all(const FrFields *fields, const FrDraw *what, const double at[3], double part,
+                     Way *way) {
+    double field[3];
+    if (what->tropism.down != 0 || what->tropism.flat != 0) {
+        fr_field_gravity(fields, at, field);
+        draw(way, field, what->tropism.down * part, false);
+        draw(way, field, what->tropism.flat * part, true);
+    }
+    if (what->tropism.up != 0) {
+        fr_field_light(fields, at, field);
+        draw(way, field, what->tropism.up * part, false);
+    }
+    for (uint32_t f = fields->innermost; f != FR_NONE; f = fields->fields[f].outer) {
+        const FrField *force = &fields->fields[f];
+        const FrPrepared *prepared = &fields->prepared[force->component];
+        if (prepared->kind == FR_COMPONENT_FORCE && force->strength != 0) {
+            double weight = fr_force_at(force, prepared, at, way->heading, field);
+            double metres = part * what->length / force->scale;
+            draw(way, field, weight * force->strength * metres, false);
+        }
+    }
+}
+
+static versors turned_by(const double turn[3], double angle) {
+    vec3s axis = {{(float)(turn[0] / angle), (float)(turn[1] / angle), (float)(turn[2] / angle)}};
+    return fr_rotation_about(axis, (float)angle);
+}
+
+versors fr_field_turn(const FrFields *fields, const FrDraw *what, versors frame, vec3s from,
+                      double step) {
+    versors whole = {{0, 0, 0, 1}};
+    double at[3] = {(double)from.x, (double)from.y, (double)from.z};
+    uint32_t count = (uint32_t)fmax(1, ceil(step * STRETCHES - 1e-9));
+    double part = step / count;
+    for (uint32_t k = 0; k < count; k++) {
+        Way way = {0};
+        vec3s heading = fr_frame_heading(frame), side = fr_frame_left(frame);
+        for (int r = 0; r < 3; r++) {
+            way.heading[r] = (double)heading.raw[r];
+            way.side[r] = (double)side.raw[r];
+            at[r] += 0.5 * part * what->length * way.heading[r];
+        }
+        draw_all(fields, what, at, part, &way);
+        double angle = sqrt(dot(way.turn, way.turn));
+        if (angle > 0) {
+            versors turn = turned_by(way.turn, fmax(angle, 1e-300));
+            frame = fr_frame_step(turn, frame);
+            whole = fr_frame_step(turn, whole);
+            heading = fr_frame_heading(frame);
+        }
+        for (int r = 0; r < 3; r++) {
+            at[r] += 0.5 * part * what->length * (double)heading.raw[r];
+        }
+    }
+    return whole;
+}
+
+// ---- solids -----------------------------------------------------------------------------------
+
+// Lifts the heading off a surface until the internode's end is clear of it. True if it was turned.
+static bool lift(const FrField *force, const FrPrepared *prepared, const double from[3],
+                 double length, double radius, double heading[3]) {
+    enum { TRIES = 6 };
+    bool is_turned = false;
+    for (int k = 0; k < TRIES; k++) {
+        double end[3], outward[3];
+        for (int r = 0; r < 3; r++) {
+            end[r] = from[r] + length * heading[r];
+        }
+        double depth = radius - fr_force_clearance(force, prepared, end, outward);
+        if (!(depth > 1e-7 * length)) {
+            break;
+        }
+        double rise = dot(heading, outward), along[3];
+        for (int r = 0; r < 3; r++) {
+            along[r] = heading[r] - rise * outward[r];
+        }
+        double size = sqrt(dot(along, along));
+        double wanted = fmin(rise + 1.01 * depth / length, 1);
+        double flat = sqrt(fmax(0, 1 - wanted * wanted));
+        for (int r = 0; r < 3; r++) {
+            heading[r] = wanted * outward[r] + (size > 1e-6 ? flat * along[r] / size : 0);
+        }
+        size = sqrt(dot(heading, heading));
+        for (int r = 0; r < 3; r++) {
+            heading[r] = size > SHORTEST ? heading[r] / size : outward[r];
+        }
+        is_turned = true;
+    }
+    return is_turned;
+}
+
+bool fr_field_deflect(const FrFields *fields, versors frame, vec3s from, double length,
+                      double radius, versors *turn) {
+    vec3s before = fr_frame_heading(frame);
+    double at[3], heading[3];
+    for (int r = 0; r < 3; r++) {
+        at[r] = (double)from.raw[r];
+        heading[r] = (double)before.raw[r];
+    }
+    bool is_turned = false;
+    for (uint32_t f = fields->innermost; f != FR_NONE && length > 0; f = fields->fields[f].outer) {
+        const FrField *force = &fields->fields[f];
+        const FrPrepared *prepared = &fields->prepared[force->component];
+        const FrForceParams *params = prepared->params;
+        if (prepared->kind == FR_COMPONENT_FORCE && params->solid) {
+            is_turned |= lift(force, prepared, at, length, radius, heading);
+        }
+    }
+    if (is_turned) {
+        vec3s after = {{(float)heading[0], (float)heading[1], (float)heading[2]}};
+        *turn = fr_rotation_between(before, after);
+    }
+    return is_turned;
+}

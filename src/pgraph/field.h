@@ -1,0 +1,44 @@
+/// @file field.h
+/// Fields that turn stems and leaves: gravity and light as functions of position, and forces.
+#pragma once
+
+#include "pgraph/evaluate.h"
+#include "pgraph/prepare.h"
+#include "pgraph/tropism.h"
+
+/// One instance of a World or a Force. Fields act on all that follows on them.
+typedef struct FrField {
+    uint32_t outer;                 ///< the field around it, FR_NONE
+    uint32_t component;             ///< what it is an instance of
+    double at[3];                   ///< where it stands, in the plant's coordinates …
+    double axes[3][3];              ///< … columns are its axes
+    double scale;                   ///< metres of a unit of its coordinates
+    double strength, radius, pitch; ///< of a Force
+} FrField;
+
+/// What acts on one stem or leaf.
+typedef struct FrFields {
+    const FrField *fields;
+    const FrPrepared *prepared; ///< by component
+    uint32_t innermost;         ///< FR_NONE: plain gravity and light
+    FrEvaluator *evaluator;     ///< takes note of formulas without value
+} FrFields;
+
+/// What turns a stem on its way.
+typedef struct FrDraw {
+    FrTropism tropism; ///< over the stem's length
+    double length;     ///< m, of the stem
+} FrDraw;
+
+/// Gravity, 1 where it is plain, at a point in the plant's coordinates.
+void fr_field_gravity(const FrFields *fields, const double at[3], double gravity[3]);
+/// Towards the light, in the same way.
+void fr_field_light(const FrFields *fields, const double at[3], double light[3]);
+/// The rotation, in the plant's coordinates, of a stem that has `frame` at `from` and grows on for
+/// a part `step` of its length. Independent of how a stem is cut into steps but for second order.
+versors fr_field_turn(const FrFields *fields, const FrDraw *draw, versors frame, vec3s from,
+                      double step);
+/// The rotation that keeps an internode of `length` metres, `radius` thick, out of solid forces.
+/// False if it need not turn.
+bool fr_field_deflect(const FrFields *fields, versors frame, vec3s from, double length,
+                      double radius, versors *turn);
