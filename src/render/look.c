@@ -52,8 +52,9 @@ FrStatus fr_look_init(FrLook *look, FrMaterial *material, bool is_foliage,
     if (status == FR_OK) {
         status = load(material, FR_MAP_ROUGHNESS, context, &look->roughness);
     }
-    look->has_holes =
-        look->colour != NULL && look->colour->channels == 4 && fr_material_has_alpha(material);
+    // A picture of a leaf wrapped around a stem would leave gaps in it.
+    look->has_holes = is_foliage && look->colour != NULL && look->colour->channels == 4 &&
+                      fr_material_has_alpha(material);
     return status;
 }
 

@@ -149,6 +149,24 @@ static void test_mask(void) {
     fr_image_unref(picture);
 }
 
+// A green stem often has its leaves' material: their picture's border is no gap in the stem.
+static void test_stem_with_picture_of_leaf(void) {
+    FrMaterialParams params;
+    fr_params_init(fr_material_table(), &params);
+    params.texture = FR_TEXTURE_LEAF;
+    params.size = 64;
+    FrMaterial *material = fr_material_new("green", &params, ".", (FrSpan){0});
+    FrContext context = fr_context_default();
+    for (int is_foliage = 0; is_foliage < 2; is_foliage++) {
+        FrLook look;
+        g_assert_cmpint(fr_look_init(&look, material, is_foliage == 1, &context), ==, FR_OK);
+        g_assert_true(fr_look_is_hole(&look, 0.02f, 0.02f) == (is_foliage == 1));
+        g_assert_false(fr_look_is_hole(&look, 0.5f, 0.5f));
+    }
+    fr_material_unref(material);
+    fr_params_clear(fr_material_table(), &params);
+}
+
 static void test_camera(void) {
     FrWorld *world = fr_world_new(fr_sky_new_uniform(grey(1), true), NULL);
     uint32_t mesh = fr_world_add_mesh(world, sphere(), matt(grey(1), 0));
@@ -214,6 +232,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/render/path/light through leaves is yellower, through petals unchanged",
                     test_leaf_colours);
     g_test_add_func("/render/path/holes let sun and eye through", test_mask);
+    g_test_add_func("/render/path/a stem shows no gaps of its leaves' picture",
+                    test_stem_with_picture_of_leaf);
     g_test_add_func("/render/camera/a scene fills its frame but for six per cent", test_camera);
     g_test_add_func("/render/camera/views count from −y and from the middle", test_camera_side);
     return g_test_run();
