@@ -1,9 +1,9 @@
 // What turns a stem in fields that depend on where it is.
 //
-// In a constant field the angle α between stem and field decays as e^−κs. Here that solution is
-// taken over stretches so short that the field hardly changes, always the same number of them over
-// the whole stem. So the form of a stem does not depend on its internodes, nor does strength
-// overshoot.
+// In a constant field the angle α between stem and field decays as e^−κs; where several fields
+// draw, their turns add and decay with the sum of their strengths (tropism.h). Here that solution
+// is taken over stretches so short that the fields hardly change, always as many of them over the
+// whole stem. So the form of a stem does not depend on its internodes, nor does strength overshoot.
 #include "pgraph/field.h"
 
 #include "pgraph/force.h"
@@ -14,6 +14,8 @@
 
 // Stretches of the whole length of a stem.
 #define STRETCHES 96.0
+// Away from fields a stem turns no faster than this over a stretch.
+#define MOST_AWAY -1.0
 // Shorter vectors have no direction.
 #define SHORTEST 1e-12
 
@@ -79,11 +81,11 @@ void fr_field_light(const FrFields *fields, const double at[3], double light[3])
 typedef struct Way {
     double heading[3];
     double side[3]; ///< across it, for where nothing else says about what to turn
-    double turn[3]; ///< of the stretch: axis times angle
+    double turn[3]; ///< of all fields: axis times strength times angle
+    double sum;     ///< of their strengths
 } Way;
 
-// Adds the turn towards `field` over which the angle to it shrinks by e^−κ; across it where
-// `is_across`.
+// Adds the turn towards `field`; across it where `is_across`.
 static void draw(Way *way, const double field[3], double strength, bool is_across) {
     double size = sqrt(dot(field, field));
     if (size < SHORTEST || strength == 0) {
@@ -98,11 +100,10 @@ static void draw(Way *way, const double field[3], double strength, bool is_acros
         axis[k] = sine > 1e-9 * size ? axis[k] / sine : way->side[k];
     }
     double rest = is_across ? 0.5 * PI : 0;
-    double next = rest + (angle - rest) * exp(-strength * size);
-    next = fmax(0, fmin(next, PI));
     for (int k = 0; k < 3; k++) {
-        way->turn[k] += (angle - next) * axis[k];
+        way->turn[k] += strength * size * (angle - rest) * axis[k];
     }
+    way->sum += strength * size;
 }
 
 static void draw_all(const FrFields *fields, const FrDraw *what, const double at[3], double part,
@@ -128,8 +129,8 @@ static void draw_all(const FrFields *fields, const FrDraw *what, const double at
     }
 }
 
-static versors turned_by(const double turn[3], double angle) {
-    vec3s axis = {{(float)(turn[0] / angle), (float)(turn[1] / angle), (float)(turn[2] / angle)}};
+static versors turned_by(const double turn[3], double size, double angle) {
+    vec3s axis = {{(float)(turn[0] / size), (float)(turn[1] / size), (float)(turn[2] / size)}};
     return fr_rotation_about(axis, (float)angle);
 }
 
@@ -148,9 +149,11 @@ versors fr_field_turn(const FrFields *fields, const FrDraw *what, versors frame,
             at[r] += 0.5 * part * what->length * way.heading[r];
         }
         draw_all(fields, what, at, part, &way);
+        double sum = fmax(way.sum, MOST_AWAY);
+        double shrunk = fabs(sum) > 1e-9 ? -expm1(-sum) / sum : 1;
         double angle = sqrt(dot(way.turn, way.turn));
-        if (angle > 0) {
-            versors turn = turned_by(way.turn, fmax(angle, 1e-300));
+        if (angle > SHORTEST) {
+            versors turn = turned_by(way.turn, angle, fmin(shrunk * angle, PI));
             frame = fr_frame_step(turn, frame);
             whole = fr_frame_step(turn, whole);
             heading = fr_frame_heading(frame);

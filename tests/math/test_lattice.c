@@ -63,8 +63,8 @@ static void bernstein_sum(void) {
     for (uint32_t i = 0; i <= 4; i++) {
         for (uint32_t j = 0; j <= 2; j++) {
             for (uint32_t k = 0; k <= 3; k++) {
-                double weight = bernstein(4, i, part[0]) * bernstein(2, j, part[1]) *
-                                bernstein(3, k, part[2]);
+                double weight =
+                    bernstein(4, i, part[0]) * bernstein(2, j, part[1]) * bernstein(3, k, part[2]);
                 for (int c = 0; c < 3; c++) {
                     sum[c] += weight * lattice.points[fr_lattice_index(&lattice, i, j, k)][c];
                 }
