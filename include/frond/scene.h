@@ -34,6 +34,18 @@ typedef struct FrScene {
 /// FrLimits.bytes. The document must outlive the scene.
 FR_API FR_MUST_USE FrStatus fr_scene_build(const FrDocument *document, int64_t seed,
                                            const FrContext *context, FrScene **scene);
+/// A scene of one plant, which it takes, at the origin; sun, ground and views are the document's.
+FR_API FrScene *fr_scene_of_plant(FrPlant *plant, uint64_t instances, const FrDocument *document,
+                                  uint64_t seed);
+/// `count` instances of a plant side by side, of seeds `seed` (< 0: the plant's), `seed` + 1, …; a
+/// plant that is no variation is varied by the default settings. The base keeps its own seed. Sun
+/// and ground are the document's; views, made for the document's own scene, are left out.
+FR_API FR_MUST_USE FrStatus fr_scene_collect(const FrDocument *document,
+                                             const FrPlantDef *definition, int64_t seed,
+                                             uint32_t count, const FrContext *context,
+                                             FrScene **scene);
+/// A scene of one of another's plants alone, at the origin. It borrows the plant.
+FR_API FrScene *fr_scene_single(const FrScene *scene, uint32_t plant);
 FR_API void fr_scene_free(FrScene *scene);
 FR_API FrDigest fr_scene_digest(const FrScene *scene);
 /// The smallest box around everything, organs' shapes included roughly; min > max if nothing has

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "frond/io.h"
+#include "frond/lsystem.h"
 #include "frond/render.h"
 
 #include <jansson.h>
@@ -17,7 +18,8 @@ typedef enum CliVerbId {
     CLI_NEW = 1 << 5,
     CLI_SCHEMA = 1 << 6,
     CLI_REFERENCE = 1 << 7,
-    CLI_ALL = (1 << 8) - 1
+    CLI_DERIVE = 1 << 8,
+    CLI_ALL = (1 << 9) - 1
 } CliVerbId;
 
 typedef struct CliOptions {
@@ -26,11 +28,14 @@ typedef struct CliOptions {
     GPtrArray *sets;    ///< char *, "path=value"
     int64_t seed;       ///< < 0: as the document says
     int threads;        ///< 0: one per processor
+    int64_t steps;      ///< < 0: as the L-system says
     int64_t lod;
     int64_t samples, width, height; ///< 0: the default
     FrLeaves leaves;
     FrLimits limits;
     char *camera, *stats, *preset; ///< NULL: not given
+    char *view;                    ///< of an L-system, NULL: the .v beside it if there is one
+    bool prints_count;             ///< derive --print count
     bool is_json, is_diag_json, is_quiet, is_verbose, wants_help, wants_version;
 } CliOptions;
 
@@ -122,6 +127,25 @@ bool cli_is_model(const char *path);
 /// What is in a .glb or .gltf file.
 FR_MUST_USE FrStatus cli_model_info(CliSession *session, const char *path);
 
+// ---- lsystem.c --------------------------------------------------------------------------------
+
+/// Whether a file is an L-system by its name: .l
+bool cli_is_lsystem(const char *path);
+/// An L-system, its view and its derivation before the first step.
+typedef struct CliLsystem {
+    FrLview *view;
+    FrLsystem *system;
+    FrLsimple simple; ///< answers what it asks
+    FrEnvironment environment;
+    FrLderivation *derivation;
+} CliLsystem;
+/// Reads file and view as the options say. On failure everything is NULL.
+FR_MUST_USE FrStatus cli_lsystem_open(CliSession *session, const char *path, CliLsystem *lsystem);
+void cli_lsystem_close(CliLsystem *lsystem);
+/// Reads, derives and draws it as the only plant of a scene; `document` holds what is around.
+FR_MUST_USE FrStatus cli_lsystem_build(CliSession *session, const char *path, FrDocument **document,
+                                       FrScene **scene);
+
 // ---- verbs ------------------------------------------------------------------------------------
 
 FrStatus cli_build(CliSession *session);
@@ -130,5 +154,6 @@ FrStatus cli_check(CliSession *session);
 FrStatus cli_info(CliSession *session);
 FrStatus cli_presets(CliSession *session);
 FrStatus cli_new(CliSession *session);
+FrStatus cli_derive(CliSession *session);
 FrStatus cli_schema(CliSession *session);
 FrStatus cli_reference(CliSession *session);

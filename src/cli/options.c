@@ -122,6 +122,23 @@ static bool replace_text(char **text, const char *value) {
     return true;
 }
 
+static bool take_steps(CliOptions *options, const char *value) {
+    return take_integer("steps", value, 0, 1000000000, &options->steps);
+}
+
+static bool take_view(CliOptions *options, const char *value) {
+    return replace_text(&options->view, value);
+}
+
+static bool take_print(CliOptions *options, const char *value) {
+    options->prints_count = strcmp(value, "count") == 0;
+    bool is_right = options->prints_count || strcmp(value, "string") == 0;
+    if (!is_right) {
+        cli_message("--print takes string or count, not '%s'", value);
+    }
+    return is_right;
+}
+
 static bool take_camera(CliOptions *options, const char *value) {
     return replace_text(&options->camera, value);
 }
@@ -160,7 +177,7 @@ static bool take_version(CliOptions *options, const char *value) {
 }
 
 enum {
-    READING = CLI_BUILD | CLI_RENDER | CLI_CHECK | CLI_INFO,
+    READING = CLI_BUILD | CLI_RENDER | CLI_CHECK | CLI_INFO | CLI_DERIVE,
     MAKING = CLI_BUILD | CLI_RENDER,
 };
 
@@ -170,6 +187,9 @@ static const OptionRow rows[] = {
     {"set", 0, "PATH=VALUE", READING, "change an attribute, like trunk.length=9", take_set},
     {"lod", 0, "N", MAKING, "level of detail: 0 finest, to 8", take_lod},
     {"leaves", 0, "HOW", CLI_BUILD, "in glTF: merged (default), nodes, gpu", take_leaves},
+    {"steps", 0, "N", MAKING | CLI_DERIVE, "steps of an L-system", take_steps},
+    {"view", 0, "FILE", MAKING | CLI_DERIVE, "the view (.v) of an L-system", take_view},
+    {"print", 0, "WHAT", CLI_DERIVE, "string (default) or count", take_print},
     {"size", 0, "WxH", CLI_RENDER, "pixels of the picture", take_size},
     {"samples", 0, "N", CLI_RENDER, "paths per pixel", take_samples},
     {"camera", 0, "NAME", CLI_RENDER, "the view of that name", take_camera},
@@ -190,6 +210,7 @@ CliOptions cli_options_new(void) {
                         .outputs = g_ptr_array_new_with_free_func(g_free),
                         .sets = g_ptr_array_new_with_free_func(g_free),
                         .seed = -1,
+                        .steps = -1,
                         .limits = fr_limits_default()};
 }
 
@@ -200,6 +221,7 @@ void cli_options_clear(CliOptions *options) {
     g_free(options->camera);
     g_free(options->stats);
     g_free(options->preset);
+    g_free(options->view);
 }
 
 static void report_unknown(const char *name, const CliVerb *verb) {

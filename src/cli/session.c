@@ -104,6 +104,9 @@ FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **do
 FrStatus cli_session_build(CliSession *session, const char *path, FrDocument **document,
                            FrScene **scene) {
     *scene = NULL;
+    if (cli_is_lsystem(path)) {
+        return cli_lsystem_build(session, path, document, scene);
+    }
     FrStatus status = cli_session_read(session, path, document);
     if (status != FR_OK) {
         return status;

@@ -26,11 +26,20 @@ FrStatus cli_check(CliSession *session) {
     const GPtrArray *files = session->options->files;
     FrStatus worst = FR_OK;
     for (guint i = 0; i < files->len && worst != FR_CANCELLED; i++) {
-        FrDocument *document;
-        FrStatus status = cli_session_read(session, g_ptr_array_index(files, i), &document);
+        FrDocument *document = NULL;
+        FrScene *scene = NULL;
+        const char *path = g_ptr_array_index(files, i);
+        if (cli_is_lsystem(path)) {
+            FrStatus built = cli_lsystem_build(session, path, &document, &scene);
+            cli_session_flush(session);
+            fr_scene_free(scene);
+            fr_document_free(document);
+            worst = MAX(worst, built);
+            continue;
+        }
+        FrStatus status = cli_session_read(session, path, &document);
         if (status == FR_OK) {
             status = check_pictures(session, document);
-            FrScene *scene = NULL;
             // A document may hold materials and curves only.
             if (status == FR_OK && fr_document_plants(document)->len > 0) {
                 status =
