@@ -2,6 +2,7 @@
 /// Model files. A file appears whole or not at all: it is written beside its name, then renamed.
 #pragma once
 
+#include "frond/nurbs_skin.h"
 #include "frond/scene.h"
 
 /// How organs stand in a .glb or .gltf.
@@ -14,11 +15,13 @@ typedef enum FrLeaves {
 typedef struct FrIoOptions {
     FrLeaves leaves;
     FrSkinParams skin;
+    FrNurbsParams nurbs; ///< of .igs and .stp files and .nurbs.obj
 } FrIoOptions;
 
 /// What was written.
 typedef struct FrIoStats {
     uint64_t meshes, vertices, triangles; ///< triangles: with every instance counted
+    uint64_t surfaces;                    ///< rational ones; then there are no triangles
     uint64_t bytes;
     double skin_seconds, write_seconds;
 } FrIoStats;
@@ -28,7 +31,8 @@ FR_API FrIoOptions fr_io_options_default(void);
 FR_API bool fr_io_can_write(const char *path);
 /// The extensions, e.g. ".glb", for messages; NULL-terminated.
 FR_API const char *const *fr_io_extensions(void);
-/// Writes the scene in the format of the extension of `path`: .glb .gltf .obj .ply .stl.
+/// Writes the scene in the format of the extension of `path`: .glb .gltf .obj .ply .stl,
+/// and as rational surfaces .igs .iges .stp .step and .nurbs.obj (free-form statements).
 FR_API FR_MUST_USE FrStatus fr_io_write(const FrScene *scene, const char *path,
                                         const FrIoOptions *options, const FrContext *context,
                                         FrIoStats *stats);

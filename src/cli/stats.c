@@ -86,7 +86,9 @@ static json_t *make_stats(const CliSession *session, const char *document, const
     set_count(stats, "nodes", totals.nodes);
     set_count(stats, "organs", totals.organs);
     set_count(stats, "shapes", totals.shapes);
-    if (io != NULL) {
+    if (io != NULL && io->surfaces > 0) {
+        set_count(stats, "surfaces", io->surfaces);
+    } else if (io != NULL) {
         set_count(stats, "meshes", io->meshes);
         set_count(stats, "vertices", io->vertices);
         set_count(stats, "triangles", io->triangles);

@@ -22,10 +22,11 @@ static void say_written(const CliSession *session, const char *path, const FrIoS
     if (session->options->is_quiet || (sink != NULL && strcmp(sink, "-") == 0)) {
         return;
     }
-    char *triangles = cli_count_text(stats->triangles);
+    bool is_rational = stats->surfaces > 0;
+    char *count = cli_count_text(is_rational ? stats->surfaces : stats->triangles);
     char *size = g_format_size(stats->bytes);
-    printf("%s: %s triangles, %s\n", path, triangles, size);
-    g_free(triangles);
+    printf("%s: %s %s, %s\n", path, count, is_rational ? "surfaces" : "triangles", size);
+    g_free(count);
     g_free(size);
 }
 

@@ -8,9 +8,15 @@ FrStatus fr_glb_write(const FrScene *scene, const char *path, const FrIoOptions 
                       const FrContext *context, FrIoStats *stats);
 FrStatus fr_gltf_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                        const FrContext *context, FrIoStats *stats);
+FrStatus fr_free_form_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                            const FrContext *context, FrIoStats *stats);
+FrStatus fr_iges_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                       const FrContext *context, FrIoStats *stats);
 FrStatus fr_obj_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                       const FrContext *context, FrIoStats *stats);
 FrStatus fr_ply_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                       const FrContext *context, FrIoStats *stats);
 FrStatus fr_stl_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                       const FrContext *context, FrIoStats *stats);
+FrStatus fr_step_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                       const FrContext *context, FrIoStats *stats);

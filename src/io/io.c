@@ -9,12 +9,17 @@ typedef FrStatus (*FrFormatWrite)(const FrScene *scene, const char *path,
                                   const FrIoOptions *options, const FrContext *context,
                                   FrIoStats *stats);
 
-static const char *const extensions[] = {".glb", ".gltf", ".obj", ".ply", ".stl", NULL};
-static const FrFormatWrite writers[] = {fr_glb_write, fr_gltf_write, fr_obj_write, fr_ply_write,
-                                        fr_stl_write};
+// A longer extension stands before the one that it ends in.
+static const char *const extensions[] = {".glb", ".gltf", ".igs", ".iges", ".nurbs.obj", ".obj",
+                                         ".ply", ".step", ".stl", ".stp",  NULL};
+static const FrFormatWrite writers[] = {
+    fr_glb_write, fr_gltf_write, fr_iges_write, fr_iges_write, fr_free_form_write,
+    fr_obj_write, fr_ply_write,  fr_step_write, fr_stl_write,  fr_step_write,
+};
 
 FrIoOptions fr_io_options_default(void) {
-    return (FrIoOptions){.leaves = FR_LEAVES_MERGED, .skin = fr_skin_default()};
+    return (FrIoOptions){
+        .leaves = FR_LEAVES_MERGED, .skin = fr_skin_default(), .nurbs = fr_nurbs_default()};
 }
 
 const char *const *fr_io_extensions(void) {
@@ -22,16 +27,14 @@ const char *const *fr_io_extensions(void) {
 }
 
 static FrFormatWrite writer_of(const char *path) {
-    char *name = g_path_get_basename(path);
-    const char *dot = strrchr(name, '.');
-    FrFormatWrite writer = NULL;
-    for (size_t i = 0; dot != NULL && extensions[i] != NULL; i++) {
-        if (g_ascii_strcasecmp(dot, extensions[i]) == 0) {
-            writer = writers[i];
+    size_t length = strlen(path);
+    for (size_t i = 0; extensions[i] != NULL; i++) {
+        size_t tail = strlen(extensions[i]);
+        if (length >= tail && g_ascii_strcasecmp(path + length - tail, extensions[i]) == 0) {
+            return writers[i];
         }
     }
-    g_free(name);
-    return writer;
+    return NULL;
 }
 
 bool fr_io_can_write(const char *path) {

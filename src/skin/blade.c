@@ -5,6 +5,8 @@
 // The midrib is m(s) = ∫ (sin θ, cos θ) in the plane of y and z with θ(s) = θ0 + ∫ κ; across it
 // runs a curve of the angle φ(t) = fold + ∫ κ from the midrib to each margin. Both keep arc length.
 // A curve over either curvature spreads the whole turn by its values: κ = turn · y(x) / ∫ |y|.
+#include "skin/blade.h"
+
 #include "skin/outline.h"
 #include "skin/shape.h"
 
@@ -12,20 +14,7 @@
 
 #include <math.h>
 
-enum { FINE = 64, ROWS_MOST = 128, ACROSS_MOST = 32 };
-
-/// A plane curve with the turn and the position at even steps.
-typedef struct FrBent {
-    double angle[FINE + 1], x[FINE + 1], y[FINE + 1]; ///< x straight on, y aside
-} FrBent;
-
-typedef struct FrBladeForm {
-    const FrBlade *blade;
-    double width, half; ///< m
-    FrBent along;       ///< of length 1
-    FrBent across;      ///< of half a width, length 1
-    vec3s base;         ///< end of the petiole
-} FrBladeForm;
+enum { FINE = FR_BLADE_FINE, ROWS_MOST = 128, ACROSS_MOST = 32 };
 
 static double curve_at(const FrProfile *curve, double x) {
     const double(*p)[2] = (const double(*)[2])curve->points;
@@ -78,8 +67,7 @@ static void bent_at(const FrBent *bent, double at, double *x, double *y, double 
     *y = bent->y[low] + part / FINE * sin(middle);
 }
 
-// The point of the blade at `along` (0 to 1) and `aside` metres to the right of the midrib.
-static void surface(const FrBladeForm *form, double along, double aside, double point[3]) {
+void fr_blade_point(const FrBladeForm *form, double along, double aside, double point[3]) {
     const FrBlade *blade = form->blade;
     double forth, lift, theta, out, up, phi;
     bent_at(&form->along, along, &forth, &lift, &theta);
@@ -97,10 +85,10 @@ static void surface(const FrBladeForm *form, double along, double aside, double 
 static vec3s surface_normal(const FrBladeForm *form, double along, double aside) {
     const double step = 1e-3;
     double base[3], tip[3], left[3], right[3], a[3], b[3];
-    surface(form, fmax(along - step, 0.0), aside, base);
-    surface(form, fmin(along + step, 1.0), aside, tip);
-    surface(form, along, aside - step * form->half, left);
-    surface(form, along, aside + step * form->half, right);
+    fr_blade_point(form, fmax(along - step, 0.0), aside, base);
+    fr_blade_point(form, fmin(along + step, 1.0), aside, tip);
+    fr_blade_point(form, along, aside - step * form->half, left);
+    fr_blade_point(form, along, aside + step * form->half, right);
     for (int k = 0; k < 3; k++) {
         a[k] = right[k] - left[k];
         b[k] = tip[k] - base[k];
@@ -115,7 +103,7 @@ static vec3s surface_normal(const FrBladeForm *form, double along, double aside)
 
 static uint32_t put_vertex(FrShapeMesh *mesh, const FrBladeForm *form, double along, double aside) {
     double u = fmin(fmax(0.5 + aside / form->width, 0.0), 1.0), point[3];
-    surface(form, along, aside, point);
+    fr_blade_point(form, along, aside, point);
     vec3s position = {{(float)point[0], (float)point[1], (float)point[2]}};
     return fr_shape_vertex(mesh, position, surface_normal(form, along, aside), (float)u,
                            (float)(1.0 - along));
@@ -211,25 +199,41 @@ static void lay_petiole(FrShapeMesh *mesh, const FrBlade *blade, const FrBent *b
     }
 }
 
+bool fr_blade_form_init(FrBladeForm *form, const FrPlant *plant, const FrBlade *blade) {
+    *form = (FrBladeForm){.blade = blade, .width = blade->width, .half = 0.5 * blade->width};
+    double start = 0.0;
+    if (blade->petiole_length > 0.0F) {
+        double forth, lift;
+        bend(&form->petiole, plant, 0.0, blade->petiole_bend, FR_NONE);
+        bent_at(&form->petiole, 1.0, &forth, &lift, &start);
+        form->base.y = blade->petiole_length * (float)lift;
+        form->base.z = blade->petiole_length * (float)forth;
+    }
+    if (!(blade->length > 0.0F && blade->width > 0.0F)) {
+        return false;
+    }
+    bend(&form->along, plant, start, blade->curvature_along, blade->along_curve);
+    bend(&form->across, plant, blade->fold, blade->curvature_across, blade->across_curve);
+    return true;
+}
+
+void fr_blade_petiole(const FrBladeForm *form, double along, double point[3]) {
+    double forth, lift, theta, length = (double)form->blade->petiole_length;
+    bent_at(&form->petiole, along, &forth, &lift, &theta);
+    point[0] = 0.0;
+    point[1] = length * lift;
+    point[2] = length * forth;
+}
+
 void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
                     const FrDetail *detail) {
     mesh->is_foliage = true;
-    FrBladeForm form = {.blade = blade, .width = blade->width, .half = 0.5 * blade->width};
-    double start = 0.0;
-    if (blade->petiole_length > 0.0F) {
-        FrBent bent;
-        double forth, lift;
-        bend(&bent, plant, 0.0, blade->petiole_bend, FR_NONE);
-        bent_at(&bent, 1.0, &forth, &lift, &start);
-        form.base.y = blade->petiole_length * (float)lift;
-        form.base.z = blade->petiole_length * (float)forth;
-        if (blade->petiole_radius > 0.0F && detail->lod < 2) {
-            lay_petiole(mesh, blade, &bent, detail);
-        }
+    FrBladeForm form;
+    bool has_blade = fr_blade_form_init(&form, plant, blade);
+    if (blade->petiole_length > 0.0F && blade->petiole_radius > 0.0F && detail->lod < 2) {
+        lay_petiole(mesh, blade, &form.petiole, detail);
     }
-    if (blade->length > 0.0F && blade->width > 0.0F) {
-        bend(&form.along, plant, start, blade->curvature_along, blade->along_curve);
-        bend(&form.across, plant, blade->fold, blade->curvature_across, blade->across_curve);
+    if (has_blade) {
         lay_blade(mesh, plant, &form, detail);
     }
 }

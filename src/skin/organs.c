@@ -9,7 +9,7 @@
 // The purpose of the draw that decides whether a leaf stays.
 enum { PURPOSE_STAY = 0x6c6f64 };
 
-static bool is_drawn(const FrPlan *plan, uint32_t organ) {
+bool fr_organ_is_drawn(const FrPlan *plan, uint32_t organ) {
     const FrOrgans *organs = &plan->plant->organs;
     uint32_t node = organs->node[organ];
     return (organs->flags[organ] & (FR_SHED | FR_HIDDEN)) == 0 && organs->scale[organ] > 0.0F &&
@@ -77,7 +77,7 @@ static void place_organs(FrOrganPlan *organs, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         organs->index[i] = UINT64_MAX;
         uint32_t form = plant->organs.shape[i], slot = fr_slot(plant->organs.material[i]);
-        if (form >= plant->shapes->len || !is_drawn(plan, i)) {
+        if (form >= plant->shapes->len || !fr_organ_is_drawn(plan, i)) {
             continue;
         }
         const FrShapeMesh *shape = &organs->shapes[form];

@@ -21,6 +21,8 @@ typedef struct FrOrganPlan {
     double staying; ///< part of the leaves
 } FrOrganPlan;
 
+/// Neither shed nor hidden, nor on something shed.
+bool fr_organ_is_drawn(const FrPlan *plan, uint32_t organ);
 /// FR_ERR_LIMIT if the shapes alone would take too many bytes; then no shape has been made.
 FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan);
 void fr_organs_clear(FrOrganPlan *organs);

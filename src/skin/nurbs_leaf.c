@@ -1,0 +1,121 @@
+// A leaf as three surfaces: a petiole of constant radius and two patches from the midrib to the
+// margins. Beneš. Generating a Model of Plant Using NURBS, Figure 5.
+//
+// A patch blends linearly from midrib to margin, S(u, v) = (1 − v) M(u) + v B(u); a blade that is
+// curved across has cubic arcs instead. Both run through the rows of the outline (tensor product
+// interpolation, The NURBS Book, section 9.2.5), and the halves share the midrib's control points.
+#include "skin/nurbs.h"
+
+#include "skin/blade.h"
+#include "skin/outline.h"
+
+#include <string.h>
+
+enum { LEAST_ROWS = 9, MOST_ROWS = 41, ACROSS_MOST = 4, PETIOLE_POINTS = 5 };
+
+uint64_t fr_nurbs_leaf_bytes_most(void) {
+    uint64_t patch = MOST_ROWS * ACROSS_MOST * 4 + MOST_ROWS + ACROSS_MOST + 8;
+    uint64_t petiole = 9 * PETIOLE_POINTS * 4 + 40;
+    return (2 * patch + petiole) * sizeof(double) + 3 * sizeof(FrNurbsForm);
+}
+
+static void lay_petiole(GArray *forms, const FrBladeForm *form, const FrNurbsParams *params) {
+    const FrBlade *blade = form->blade;
+    if (!(blade->petiole_length > 0.0F && blade->petiole_radius > 0.0F)) {
+        return;
+    }
+    FrNurbsPath path = {0};
+    double radius = fmax((double)blade->petiole_radius, 1e-5);
+    uint32_t pieces = fabsf(blade->petiole_bend) > 0.01F ? PETIOLE_POINTS - 1 : 1;
+    for (uint32_t i = 0; i <= pieces; i++) {
+        double at[3];
+        fr_blade_petiole(form, (double)i / pieces, at);
+        fr_nurbs_path_add(&path, at, radius, 1.0, FR_NONE);
+    }
+    FrNurbsParams plain = *params;
+    plain.join = FR_JOIN_TANGENT;
+    uint32_t rows = fr_nurbs_rows(&path, &plain);
+    if (rows > 0) {
+        FrNurbsCurve circle = fr_nurbs_circle((FrNurbsCircle)params->circle);
+        FrNurbsSection section = {circle, circle, true, true, false};
+        FrNurbsForm *tube =
+            fr_nurbs_form_add(forms, FR_NURBS_TUBE, circle.degree, circle.count, 3, rows);
+        memcpy(tube->knots_u, circle.knots, sizeof(double) * (circle.count + circle.degree + 1));
+        fr_nurbs_sweep(&path, &section, NULL, &plain, tube->points, tube->knots_v);
+        fr_nurbs_curve_clear(&circle);
+    }
+    fr_nurbs_path_clear(&path);
+}
+
+// Parameters along the blade: by the way the midrib and both margins go.
+static void set_parameters(const FrBladeForm *form, const FrOutlineRow *rows, uint32_t count,
+                           double *at) {
+    double last[3][3];
+    for (uint32_t i = 0; i < count; i++) {
+        const double aside[3] = {-rows[i].left * form->width, 0.0, rows[i].right * form->width};
+        at[i] = i > 0 ? at[i - 1] + 1e-6 * form->width : 0.0;
+        for (int k = 0; k < 3; k++) {
+            double point[3];
+            fr_blade_point(form, rows[i].along, aside[k], point);
+            for (int d = 0; d < 3 && i > 0; d++) {
+                last[k][d] -= point[d];
+            }
+            at[i] += i > 0 ? sqrt(fr_dot3(last[k], last[k])) : 0.0;
+            memcpy(last[k], point, sizeof point);
+        }
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        at[i] /= at[count - 1];
+    }
+}
+
+// `side` −1 is the left half, 1 the right one, whose v begins at the margin.
+static void lay_half(GArray *forms, const FrBladeForm *form, const FrOutlineRow *rows,
+                     uint32_t count, const double *at, uint32_t across, double side) {
+    uint32_t kind = side > 0.0 ? FR_NURBS_RIGHT : FR_NURBS_LEFT;
+    FrNurbsForm *half = fr_nurbs_form_add(forms, kind, 3, count, across - 1, across);
+    const double ends[] = {0.0, 1.0 / 3, 2.0 / 3, 1.0};
+    double parts[ACROSS_MOST];
+    for (uint32_t j = 0; j < across; j++) {
+        parts[j] = across == 2 ? (double)j : ends[j];
+        double out = side > 0.0 ? 1.0 - parts[j] : parts[j];
+        for (uint32_t i = 0; i < count; i++) {
+            double width = (side > 0.0 ? rows[i].right : rows[i].left) * form->width;
+            double *point = half->points[j * count + i];
+            fr_blade_point(form, rows[i].along, side * out * width, point);
+            point[3] = 1.0;
+        }
+    }
+    fr_nurbs_average_knots(at, count, 3, half->knots_u);
+    fr_nurbs_average_knots(parts, across, across - 1, half->knots_v);
+    for (uint32_t j = 0; j < across; j++) {
+        fr_nurbs_interpolate(half->knots_u, 3, at, count, half->points[j * count], 3, 4);
+    }
+    for (uint32_t i = 0; i < count && across > 2; i++) {
+        fr_nurbs_interpolate(half->knots_v, across - 1, parts, across, half->points[i], 3,
+                             4 * count);
+    }
+}
+
+void fr_nurbs_leaf(GArray *forms, const FrPlant *plant, const FrBlade *blade,
+                   const FrNurbsParams *params) {
+    FrBladeForm form;
+    bool has_blade = fr_blade_form_init(&form, plant, blade);
+    lay_petiole(forms, &form, params);
+    FrOutline outline;
+    fr_outline_init(&outline, plant, blade->outline);
+    if (!has_blade || !(outline.area > 1e-6)) {
+        return;
+    }
+    double waves = blade->wave != 0.0F ? fmin(8.0 * fabs((double)blade->waves), MOST_ROWS) : 0.0;
+    uint32_t count = MAX(3U * blade->segments_along, (uint32_t)waves) + 1;
+    count = CLAMP(count, LEAST_ROWS, MOST_ROWS);
+    FrOutlineRow rows[MOST_ROWS];
+    double at[MOST_ROWS];
+    fr_outline_rows(&outline, count - 1, rows);
+    set_parameters(&form, rows, count, at);
+    bool is_level = blade->curvature_across == 0.0F && blade->wave == 0.0F;
+    uint32_t across = is_level ? 2 : ACROSS_MOST;
+    lay_half(forms, &form, rows, count, at, across, 1.0);
+    lay_half(forms, &form, rows, count, at, across, -1.0);
+}
