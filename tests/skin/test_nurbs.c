@@ -1,0 +1,487 @@
+// Rational skins: exact tubes, joints, joins, leaves, shapes, promises.
+#include "frond/curve.h"
+#include "frond/nurbs_skin.h"
+
+#include <cglm/struct.h>
+
+#include <math.h>
+#include <string.h>
+
+static FrNurbsSkin *skinned(const FrPlant *plant, const FrNurbsParams *params) {
+    FrContext context = fr_context_default();
+    FrNurbsSkin *skin;
+    g_assert_cmpint(fr_nurbs_plant(plant, params, &context, &skin), ==, FR_OK);
+    for (uint64_t i = 0; i < skin->count; i++) {
+        g_assert_true(fr_nurbs_surface_is_valid(&skin->pieces[i].surface));
+    }
+    return skin;
+}
+
+static versors about_x(float degrees) {
+    return glms_quatv(degrees * (float)G_PI / 180, (vec3s){{1, 0, 0}});
+}
+
+/// A straight stem of four internodes, 0.1 m thick.
+static FrPlant *stem(void) {
+    FrPlant *plant = fr_plant_new("stem");
+    uint32_t axis = fr_plant_add_axis(plant, FR_NONE, (vec3s){{0, 0, 0}}, 0.0625F);
+    for (int i = 0; i < 4; i++) {
+        fr_plant_add_node(plant, axis, GLMS_QUAT_IDENTITY, 0.5F, 0.0625F);
+    }
+    return plant;
+}
+
+/// The middle of the control ring of row j, for the seven points of a triangle.
+static void middle(const FrNurbsSurface *surface, uint32_t j, double out[4]) {
+    const double(*row)[4] = surface->points + (size_t)j * surface->count_u;
+    for (int k = 0; k < 3; k++) {
+        out[k] = (row[0][k] + row[2][k] + row[4][k]) / 3;
+    }
+    out[3] = 1;
+}
+
+/// The path that a tube was swept along, as a curve. Free its points.
+static FrNurbsCurve path_of(const FrNurbsSurface *surface) {
+    FrNurbsCurve curve = {.degree = 3, .count = surface->count_v};
+    curve.points = g_malloc_n(curve.count, sizeof *curve.points);
+    curve.knots = g_memdup2(surface->knots_v, sizeof(double) * ((size_t)surface->count_v + 4));
+    for (uint32_t j = 0; j < curve.count; j++) {
+        middle(surface, j, curve.points[j]);
+    }
+    return curve;
+}
+
+static void exact_tube(void) {
+    FrPlant *plant = stem();
+    for (int form = 0; form < 4; form++) {
+        FrNurbsParams params = fr_nurbs_default();
+        params.circle = form;
+        FrNurbsSkin *skin = skinned(plant, &params);
+        g_assert_cmpuint(skin->count, ==, 3);
+        g_assert_cmpuint(skin->pieces[0].kind, ==, FR_NURBS_TUBE);
+        for (int n = 0; n < 400; n++) {
+            double p[3], du[3], dv[3], u = (n % 20) / 19.0, v = (n / 20) / 19.0;
+            fr_nurbs_surface_at(&skin->pieces[0].surface, u, v, p, du, dv);
+            g_assert_cmpfloat_with_epsilon(hypot(p[0], p[1]), 0.0625, 1e-16);
+            // Outwards.
+            double nx = du[1] * dv[2] - du[2] * dv[1], ny = du[2] * dv[0] - du[0] * dv[2];
+            g_assert_cmpfloat(nx * p[0] + ny * p[1], >, 0);
+        }
+        double low[3], high[3];
+        fr_nurbs_surface_at(&skin->pieces[0].surface, 0.3, 0, low, NULL, NULL);
+        fr_nurbs_surface_at(&skin->pieces[0].surface, 0.3, 1, high, NULL, NULL);
+        g_assert_cmpfloat_with_epsilon(low[2], 0, 1e-15);
+        g_assert_cmpfloat_with_epsilon(high[2], 2, 1e-15);
+        fr_nurbs_skin_free(skin);
+    }
+    fr_plant_free(plant);
+}
+
+static void caps_close(void) {
+    FrPlant *plant = stem();
+    FrNurbsParams params = fr_nurbs_default();
+    FrNurbsSkin *skin = skinned(plant, &params);
+    for (int end = 0; end < 2; end++) {
+        const FrNurbsSurface *cap = &skin->pieces[1 + end].surface;
+        double centre[3], du[3], dv[3];
+        fr_nurbs_surface_at(cap, 0.2, end == 0 ? 0 : 1, centre, NULL, NULL);
+        g_assert_cmpfloat_with_epsilon(centre[2], 2.0 * end, 1e-15);
+        fr_nurbs_surface_at(cap, 0.2, 0.5, NULL, du, dv);
+        double up = du[0] * dv[1] - du[1] * dv[0];
+        g_assert_true(end == 0 ? up < 0 : up > 0);
+        for (int i = 0; i <= 20; i++) {
+            double rim[3], tube[3];
+            fr_nurbs_surface_at(cap, i / 20.0, end == 0 ? 1 : 0, rim, NULL, NULL);
+            fr_nurbs_surface_at(&skin->pieces[0].surface, i / 20.0, end, tube, NULL, NULL);
+            g_assert_true(memcmp(rim, tube, sizeof rim) == 0);
+        }
+    }
+    fr_nurbs_skin_free(skin);
+    fr_plant_free(plant);
+}
+
+/// The normal of a control ring in the plane of y and z, as an angle from z towards −y.
+static double ring_angle(const FrNurbsSurface *surface, uint32_t j) {
+    const double(*p)[4] = surface->points + (size_t)j * surface->count_u;
+    double a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = p[2][k] - p[0][k];
+        b[k] = p[4][k] - p[0][k];
+    }
+    return atan2(-(a[2] * b[0] - a[0] * b[2]), a[0] * b[1] - a[1] * b[0]);
+}
+
+// Equation 1 at a joint of 60°: w_out / (w_in + w_out) of the way.
+static void joints(void) {
+    const float out[] = {0.04F, 0.02F, 0.0008F};
+    for (int i = 0; i < 3; i++) {
+        FrPlant *plant = fr_plant_new("bent");
+        uint32_t axis = fr_plant_add_axis(plant, FR_NONE, (vec3s){{0, 0, 0}}, 0.04F);
+        fr_plant_add_node(plant, axis, GLMS_QUAT_IDENTITY, 1, 0.04F);
+        fr_plant_add_node(plant, axis, GLMS_QUAT_IDENTITY, 1, 0.04F);
+        fr_plant_add_node(plant, axis, about_x(60), 1, out[i]);
+        fr_plant_add_node(plant, axis, GLMS_QUAT_IDENTITY, 1, out[i]);
+        FrNurbsParams params = fr_nurbs_default();
+        FrNurbsSkin *skin = skinned(plant, &params);
+        g_assert_cmpuint(skin->pieces[0].surface.count_v, ==, 5);
+        double share = (double)out[i] / (0.04 + (double)out[i]);
+        double angle = ring_angle(&skin->pieces[0].surface, 2) * 180 / G_PI;
+        g_assert_cmpfloat_with_epsilon(angle, 60 * share, 1e-4);
+        fr_nurbs_skin_free(skin);
+        fr_plant_free(plant);
+    }
+}
+
+/// A stem of four internodes with a branch of three at its third node, to the side.
+static FrPlant *forked(void) {
+    FrPlant *plant = fr_plant_new("fork");
+    uint32_t axis = fr_plant_add_axis(plant, FR_NONE, (vec3s){{0, 0, 0}}, 0.05F);
+    for (int i = 0; i < 5; i++) {
+        fr_plant_add_node(plant, axis, about_x(6), 0.4F, 0.05F);
+    }
+    uint32_t branch = fr_plant_add_axis(plant, 2, (vec3s){{0, 0, 0}}, 0.02F);
+    fr_plant_add_node(plant, branch, about_x(-50), 0.3F, 0.02F);
+    fr_plant_add_node(plant, branch, about_x(10), 0.3F, 0.015F);
+    fr_plant_add_node(plant, branch, about_x(10), 0.3F, 0.01F);
+    return plant;
+}
+
+static double angle_between(const double a[3], const double b[3]) {
+    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
+    double z = a[0] * b[1] - a[1] * b[0];
+    return atan2(sqrt(x * x + y * y + z * z), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+
+static void tangent_join(void) {
+    FrPlant *plant = forked();
+    FrNurbsParams params = fr_nurbs_default();
+    FrNurbsSkin *skin = skinned(plant, &params);
+    g_assert_cmpuint(skin->count, ==, 6);
+    FrNurbsCurve path = path_of(&skin->pieces[3].surface);
+    double at[3], way[3], internode[3];
+    fr_nurbs_curve_at(&path, 0, at, way);
+    for (int k = 0; k < 3; k++) {
+        double base = (double)plant->nodes.position[1].raw[k];
+        internode[k] = (double)plant->nodes.position[2].raw[k] - base;
+        g_assert_cmpfloat_with_epsilon(at[k], base, 1e-9);
+    }
+    g_assert_cmpfloat(angle_between(way, internode), <, 1e-6);
+    // The second shared point is the fork.
+    for (int k = 0; k < 3; k++) {
+        g_assert_cmpfloat_with_epsilon(path.points[1][k], (double)plant->nodes.position[2].raw[k],
+                                       1e-9);
+    }
+    fr_nurbs_curve_clear(&path);
+    fr_nurbs_skin_free(skin);
+    fr_plant_free(plant);
+}
+
+// Where a smooth branch begins it has the place, tangent and curvature of its parent's path.
+static void smooth_join(void) {
+    FrPlant *plant = forked();
+    FrNurbsParams params = fr_nurbs_default();
+    params.join = FR_JOIN_SMOOTH;
+    FrNurbsSkin *skin = skinned(plant, &params);
+    FrNurbsCurve parent = path_of(&skin->pieces[0].surface);
+    FrNurbsCurve branch = path_of(&skin->pieces[3].surface);
+    double range[2], nearest = INFINITY, begin[3], way[3], found = 0;
+    fr_nurbs_range(parent.knots, 3, parent.count, range);
+    fr_nurbs_curve_at(&branch, 0, begin, way);
+    // One internode is one piece of the parent's uniform knots: the node is at 2 of 5.
+    found = 2.0 / 5;
+    double at[3], parent_way[3];
+    fr_nurbs_curve_at(&parent, found, at, parent_way);
+    nearest = hypot(hypot(at[0] - begin[0], at[1] - begin[1]), at[2] - begin[2]);
+    g_assert_cmpfloat(nearest, <, 1e-7);
+    g_assert_cmpfloat(angle_between(way, parent_way), <, 1e-6);
+    double h = 1e-4, scale_branch = branch.count - 3, scale_parent = parent.count - 3;
+    double a[3], b[3];
+    fr_nurbs_curve_at(&branch, h / scale_branch, NULL, a);
+    fr_nurbs_curve_at(&parent, found + h / scale_parent, NULL, b);
+    for (int k = 0; k < 3; k++) {
+        double bend_branch = (a[k] - way[k]) / scale_branch / h;
+        double bend_parent = (b[k] - parent_way[k]) / scale_parent / h;
+        g_assert_cmpfloat_with_epsilon(bend_branch, bend_parent, 1e-4);
+    }
+    fr_nurbs_curve_clear(&parent);
+    fr_nurbs_curve_clear(&branch);
+    fr_nurbs_skin_free(skin);
+    fr_plant_free(plant);
+}
+
+/// An S: bends one way, then the other, in one plane.
+static FrPlant *letter_s(void) {
+    FrPlant *plant = fr_plant_new("S");
+    uint32_t axis = fr_plant_add_axis(plant, FR_NONE, (vec3s){{0, 0, 0}}, 0.02F);
+    for (int i = 0; i < 12; i++) {
+        fr_plant_add_node(plant, axis, about_x(i < 6 ? 12 : -12), 0.2F, 0.02F);
+    }
+    return plant;
+}
+
+static void twisting(void) {
+    FrPlant *plant = letter_s();
+    for (int frames = 0; frames < 2; frames++) {
+        FrNurbsParams params = fr_nurbs_default();
+        params.frames = frames;
+        FrNurbsSkin *skin = skinned(plant, &params);
+        const FrNurbsSurface *tube = &skin->pieces[0].surface;
+        double most = 0;
+        for (uint32_t j = 1; j + 1 < tube->count_v; j++) {
+            double side[2][3];
+            for (uint32_t k = 0; k < 2; k++) {
+                double centre[4];
+                middle(tube, j - k, centre);
+                const double *p = tube->points[(size_t)(j - k) * tube->count_u + 1];
+                for (int d = 0; d < 3; d++) {
+                    side[k][d] = p[d] - centre[d];
+                }
+            }
+            // All of the bend is about x, so x of a side changes only by twisting.
+            most = fmax(most, fabs(side[0][0] - side[1][0]) / 0.04);
+        }
+        if (frames == FR_FRAMES_MINIMAL) {
+            g_assert_cmpfloat(most, <, 1e-3);
+        } else {
+            g_assert_cmpfloat(most, >, 0.5);
+        }
+        fr_nurbs_skin_free(skin);
+    }
+    fr_plant_free(plant);
+}
+
+// A branch that goes on from a round one with a star as its profile turns into the star.
+static void changing_profile(void) {
+    FrPlant *plant = stem();
+    double star[10][2];
+    for (int i = 0; i < 10; i++) {
+        double radius = i % 2 == 0 ? 1.4 : 0.5;
+        star[i][0] = radius * cos(G_PI * i / 5);
+        star[i][1] = radius * sin(G_PI * i / 5);
+    }
+    uint32_t profile = fr_plant_add_profile(plant, (const double(*)[2])star, 10, true);
+    uint32_t axis = fr_plant_add_axis(plant, 3, (vec3s){{0, 0, 0}}, 0.0625F);
+    plant->axes.flags[axis] = FR_CONTINUES;
+    plant->axes.profile[axis] = profile;
+    for (int i = 0; i < 6; i++) {
+        fr_plant_add_node(plant, axis, GLMS_QUAT_IDENTITY, 0.2F, 0.0625F);
+    }
+    FrNurbsParams params = fr_nurbs_default();
+    FrNurbsSkin *skin = skinned(plant, &params);
+    g_assert_cmpuint(skin->count, ==, 6);
+    const FrNurbsSurface *tube = &skin->pieces[3].surface;
+    double low[2] = {INFINITY, INFINITY}, high[2] = {0, 0};
+    for (int i = 0; i < 200; i++) {
+        for (int end = 0; end < 2; end++) {
+            double p[3];
+            fr_nurbs_surface_at(tube, i / 200.0, end, p, NULL, NULL);
+            low[end] = fmin(low[end], hypot(p[0], p[1]));
+            high[end] = fmax(high[end], hypot(p[0], p[1]));
+        }
+    }
+    g_assert_cmpfloat_with_epsilon(low[0], 0.0625, 1e-12);
+    g_assert_cmpfloat_with_epsilon(high[0], 0.0625, 1e-12);
+    // A cubic is (a + 4b + a) / 6 at its corners.
+    g_assert_cmpfloat_with_epsilon(high[1], 0.0625 * (4 * 1.4 + 2 * 0.5 * cos(G_PI / 5)) / 6, 1e-4);
+    g_assert_cmpfloat(low[1], <, 0.8 * high[1]);
+    fr_nurbs_skin_free(skin);
+    fr_plant_free(plant);
+}
+
+static FrShape leaf_shape(void) {
+    return (FrShape){
+        .kind = FR_SHAPE_BLADE,
+        .blade = {.length = 0.1F,
+                  .width = 0.05F,
+                  .petiole_length = 0.03F,
+                  .petiole_radius = 0.001F,
+                  .petiole_bend = 0.3F,
+                  .curvature_along = -0.5F,
+                  .fold = 0.3F,
+                  .outline = FR_NONE,
+                  .along_curve = FR_NONE,
+                  .across_curve = FR_NONE,
+                  .segments_along = 6,
+                  .segments_across = 2},
+    };
+}
+
+static FrPlant *with_organ(const FrShape *shape) {
+    FrPlant *plant = fr_plant_new("organ");
+    uint32_t organ = fr_plant_append_organs(plant, 1);
+    plant->organs.shape[organ] = fr_plant_add_shape(plant, shape);
+    return plant;
+}
+
+static void leaf(void) {
+    FrShape shape = leaf_shape();
+    FrPlant *plant = with_organ(&shape);
+    FrNurbsParams params = fr_nurbs_default();
+    FrNurbsSkin *skin = skinned(plant, &params);
+    g_assert_cmpuint(skin->count, ==, 3);
+    const FrNurbsSurface *right = &skin->pieces[1].surface, *left = &skin->pieces[2].surface;
+    g_assert_cmpuint(right->degree_v, ==, 1);
+    double widest = 0;
+    for (int i = 0; i <= 100; i++) {
+        double a[3], b[3], r[3], l[3], du[3], dv[3];
+        fr_nurbs_surface_at(right, i / 100.0, 1, a, NULL, NULL);
+        fr_nurbs_surface_at(left, i / 100.0, 0, b, NULL, NULL);
+        g_assert_true(memcmp(a, b, sizeof a) == 0);
+        g_assert_cmpfloat_with_epsilon(a[0], 0, 1e-15);
+        fr_nurbs_surface_at(right, i / 100.0, 0, r, NULL, NULL);
+        fr_nurbs_surface_at(left, i / 100.0, 1, l, NULL, NULL);
+        g_assert_cmpfloat_with_epsilon(r[0], -l[0], 1e-12);
+        widest = fmax(widest, l[0] - r[0]);
+        // A straight line from midrib to margin.
+        double m[3];
+        fr_nurbs_surface_at(left, i / 100.0, 0.25, m, NULL, NULL);
+        for (int k = 0; k < 3; k++) {
+            g_assert_cmpfloat_with_epsilon(m[k], 0.75 * b[k] + 0.25 * l[k], 1e-15);
+        }
+        fr_nurbs_surface_at(left, 0.01 + 0.98 * i / 100.0, 0.5, NULL, du, dv);
+        g_assert_cmpfloat(du[2] * dv[0] - du[0] * dv[2], >, 0); // upwards
+    }
+    g_assert_cmpfloat_with_epsilon(widest, 0.05 * cos(0.3), 0.0015);
+    fr_nurbs_skin_free(skin);
+    fr_plant_free(plant);
+}
+
+// The margin of a polygon's patch runs through the corners of the outline's rows.
+static void curved_leaf(void) {
+    FrShape shape = leaf_shape();
+    shape.blade.curvature_across = 0.8F;
+    shape.blade.twist = 0.4F;
+    FrPlant *plant = with_organ(&shape);
+    FrNurbsParams params = fr_nurbs_default();
+    FrNurbsSkin *skin = skinned(plant, &params);
+    g_assert_cmpuint(skin->count, ==, 3);
+    g_assert_cmpuint(skin->pieces[1].surface.degree_v, ==, 3);
+    for (int i = 0; i <= 50; i++) {
+        double a[3], b[3];
+        fr_nurbs_surface_at(&skin->pieces[1].surface, i / 50.0, 1, a, NULL, NULL);
+        fr_nurbs_surface_at(&skin->pieces[2].surface, i / 50.0, 0, b, NULL, NULL);
+        for (int k = 0; k < 3; k++) {
+            g_assert_cmpfloat_with_epsilon(a[k], b[k], 1e-15);
+        }
+    }
+    fr_nurbs_skin_free(skin);
+    fr_plant_free(plant);
+}
+
+static void primitives(void) {
+    const struct {
+        FrShapeKind kind;
+        uint64_t surfaces;
+    } wanted[] = {{FR_SHAPE_BOX, 6},      {FR_SHAPE_SPHERE, 1},  {FR_SHAPE_CONE, 2},
+                  {FR_SHAPE_CYLINDER, 3}, {FR_SHAPE_TORUS, 1},   {FR_SHAPE_SQUARE, 1},
+                  {FR_SHAPE_CIRCLE, 1},   {FR_SHAPE_TRIANGLE, 1}};
+    for (size_t i = 0; i < G_N_ELEMENTS(wanted); i++) {
+        FrShape shape = {.kind = wanted[i].kind, .size = {{0.5F, 0.5F, 0.5F}}, .detail = 12};
+        FrPlant *plant = with_organ(&shape);
+        FrNurbsParams params = fr_nurbs_default();
+        FrNurbsSkin *skin = skinned(plant, &params);
+        g_assert_cmpuint(skin->count, ==, wanted[i].surfaces);
+        for (int n = 0; n < 400; n++) {
+            double p[3], u = (n % 20) / 19.0, v = (n / 20) / 19.0;
+            fr_nurbs_surface_at(&skin->pieces[0].surface, u, v, p, NULL, NULL);
+            if (wanted[i].kind == FR_SHAPE_SPHERE) {
+                double r = sqrt(p[0] * p[0] + p[1] * p[1] + (p[2] - 0.25) * (p[2] - 0.25));
+                g_assert_cmpfloat_with_epsilon(r, 0.25, 1e-15);
+            } else if (wanted[i].kind == FR_SHAPE_TORUS) {
+                double tube = hypot(hypot(p[0], p[1]) - 0.125, p[2] - 0.25);
+                g_assert_cmpfloat(tube, <, 0.25);
+            }
+        }
+        fr_nurbs_skin_free(skin);
+        fr_plant_free(plant);
+    }
+}
+
+/// Many forks with leaves.
+static FrPlant *bush(void) {
+    FrPlant *plant = fr_plant_new("bush");
+    FrShape shape = leaf_shape();
+    uint32_t form = fr_plant_add_shape(plant, &shape);
+    for (int stem = 0; stem < 300; stem++) {
+        uint32_t axis = fr_plant_add_axis(plant, FR_NONE, (vec3s){{(float)stem, 0, 0}}, 0.05F);
+        uint32_t node = 0;
+        for (int i = 0; i < 2 + stem % 7; i++) {
+            node = fr_plant_add_node(plant, axis, about_x((float)(stem % 13)), 0.3F, 0.04F);
+        }
+        axis = fr_plant_add_axis(plant, node, (vec3s){{0, 0, 0}}, 0.02F);
+        fr_plant_add_node(plant, axis, about_x(40), 0.2F, 0.01F);
+        uint32_t organ = fr_plant_append_organs(plant, 1);
+        plant->organs.node[organ] = node;
+        plant->organs.shape[organ] = form;
+    }
+    return plant;
+}
+
+static void threads(void) {
+    FrPlant *plant = bush();
+    FrNurbsParams params = fr_nurbs_default();
+    FrNurbsSkin *alone = skinned(plant, &params);
+    g_assert_cmpuint(alone->count, ==, 300 * (3 + 3 + 3));
+    FrContext context = fr_context_default();
+    context.pool = fr_pool_new(3);
+    FrNurbsSkin *together;
+    g_assert_cmpint(fr_nurbs_plant(plant, &params, &context, &together), ==, FR_OK);
+    g_assert_cmpuint(fr_nurbs_skin_digest(alone), ==, fr_nurbs_skin_digest(together));
+    fr_pool_free(context.pool);
+    fr_nurbs_skin_free(alone);
+    fr_nurbs_skin_free(together);
+    fr_plant_free(plant);
+}
+
+static void limits(void) {
+    FrPlant *plant = bush();
+    FrNurbsParams params = fr_nurbs_default();
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    context.limits.bytes = 300000;
+    FrNurbsSkin *skin;
+    g_assert_cmpint(fr_nurbs_plant(plant, &params, &context, &skin), ==, FR_ERR_LIMIT);
+    g_assert_null(skin);
+    g_assert_cmpstr(fr_diags_get(context.diags, 0)->code, ==, "limit-bytes");
+    fr_diags_free(context.diags);
+    fr_plant_free(plant);
+}
+
+// Nothing, one point, points that repeat: no surface, no crash.
+static void degenerate(void) {
+    FrPlant *plant = fr_plant_new("nothing");
+    fr_plant_add_axis(plant, FR_NONE, (vec3s){{0, 0, 0}}, 0.1F);
+    uint32_t axis = fr_plant_add_axis(plant, FR_NONE, (vec3s){{0, 0, 0}}, 0);
+    for (int i = 0; i < 5; i++) {
+        fr_plant_add_node(plant, axis, GLMS_QUAT_IDENTITY, 0, 0);
+    }
+    axis = fr_plant_add_axis(plant, 2, (vec3s){{0, 0, 0}}, NAN);
+    fr_plant_add_node(plant, axis, about_x(180), 1, NAN);
+    fr_plant_add_node(plant, axis, about_x(180), 1, 1e-9F);
+    for (int join = 0; join < 2; join++) {
+        FrNurbsParams params = fr_nurbs_default();
+        params.join = join;
+        FrNurbsSkin *skin = skinned(plant, &params);
+        g_assert_cmpuint(skin->count, ==, 3);
+        fr_nurbs_skin_free(skin);
+    }
+    fr_plant_free(plant);
+}
+
+int main(int argc, char **argv) {
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/skin/nurbs/a straight stem is an exact cylinder", exact_tube);
+    g_test_add_func("/skin/nurbs/caps share the rims of their tube", caps_close);
+    g_test_add_func("/skin/nurbs/joints turn by the weights of equation 1", joints);
+    g_test_add_func("/skin/nurbs/a branch leaves along its parent's internode", tangent_join);
+    g_test_add_func("/skin/nurbs/a smooth branch has its parent's curvature", smooth_join);
+    g_test_add_func("/skin/nurbs/minimal frames never twist and Frenet frames flip", twisting);
+    g_test_add_func("/skin/nurbs/a profile turns from circle to star", changing_profile);
+    g_test_add_func("/skin/nurbs/a leaf is a petiole and two ruled halves", leaf);
+    g_test_add_func("/skin/nurbs/a leaf curved across has cubic arcs", curved_leaf);
+    g_test_add_func("/skin/nurbs/every primitive is exact", primitives);
+    g_test_add_func("/skin/nurbs/any number of threads makes the same surfaces", threads);
+    g_test_add_func("/skin/nurbs/too many surfaces are refused before they are made", limits);
+    g_test_add_func("/skin/nurbs/nothing makes no surface", degenerate);
+    return g_test_run();
+}
