@@ -9,6 +9,7 @@
 #include "frond/context.h"
 #include "frond/material.h"
 #include "frond/pgraph.h"
+#include "frond/variation.h"
 
 typedef struct FrDocument FrDocument;
 
@@ -31,14 +32,18 @@ FR_API FR_MUST_USE FrStatus fr_document_set(FrDocument *document, const char *pa
 
 // ---- what is in it ----------------------------------------------------------------------------
 
-typedef enum FrPlantKind { FR_PLANT_PGRAPH } FrPlantKind;
+typedef enum FrPlantKind {
+    FR_PLANT_PGRAPH,
+    FR_PLANT_VARIED, ///< another plant of the document, varied
+} FrPlantKind;
 
 /// A `<plant>`: a name, a seed and one engine's definition.
 typedef struct FrPlantDef {
     char *id;
     uint64_t seed;
     FrPlantKind kind;
-    FrPgraph *pgraph; ///< for FR_PLANT_PGRAPH
+    FrPgraph *pgraph; ///< for FR_PLANT_PGRAPH, else empty
+    FrVary *vary;     ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
     FrSpan span;
 } FrPlantDef;
 

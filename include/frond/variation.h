@@ -171,7 +171,7 @@ FR_API FrStroke *fr_pen_stroke(FrPen *pen);
 /// Settings of growth. X rows as in param.h; in the struct angles are in radians.
 #define FR_VARY_PARAMS(X)                                                                          \
     X(TEXT, base, "", 0, 0, "", "", "id of the plant that is varied")                              \
-    X(REAL, scatter, "3", 0, 45, "deg", "", "random turn at every joint; 0: none")                 \
+    X(REAL, scatter, "2", 0, 45, "deg", "", "random turn at every joint; 0: none")                 \
     X(REAL, persistence, "0.5", 0, 0.95, "", "", "how much of a joint's random turn the next has") \
     X(INTEGER, delay, "2", 0, 8, "", "", "joints from sensing a direction to reacting to it")      \
     X(REAL, feedback, "0.243", 0, 0.95, "", "",                                                    \

@@ -119,18 +119,55 @@ static json_t *plant_json(const Grown *grown) {
         "shapes", (json_int_t)grown->plant->shapes->len, "components", components_json(grown));
 }
 
+/// A varied plant has the components of its base; what is told is which base that is.
+static FrStatus describe_varied(CliSession *session, const FrDocument *document,
+                                const FrPlantDef *definition, json_t *plants) {
+    FrScene *scene;
+    FrStatus status = fr_scene_collect(document, definition, session->options->seed, 1,
+                                       &session->context, &scene);
+    if (status != FR_OK) {
+        return status;
+    }
+    const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, 0).plant;
+    const char *base = fr_vary_params(definition->vary)->base;
+    char digest[17];
+    g_snprintf(digest, sizeof digest, "%016" G_GINT64_MODIFIER "x", fr_plant_digest(plant));
+    if (plants != NULL) {
+        json_array_append_new(plants,
+                              json_pack("{s:s, s:s, s:I, s:s, s:I, s:I, s:I}", "id", definition->id,
+                                        "base", base, "seed", (json_int_t)scene->seed, "digest",
+                                        digest, "axes", (json_int_t)plant->axes.count, "nodes",
+                                        (json_int_t)plant->nodes.count, "organs",
+                                        (json_int_t)plant->organs.count));
+    } else {
+        printf("plant %s, seed %" G_GUINT64_FORMAT ": %s varied, digest %s\n", definition->id,
+               scene->seed, base, digest);
+    }
+    fr_scene_free(scene);
+    return FR_OK;
+}
+
+static FrStatus describe_grown(CliSession *session, const FrDocument *document,
+                               const FrPlantDef *definition, json_t *plants) {
+    Grown grown;
+    FrStatus status = grow(session, document, definition, &grown);
+    if (status == FR_OK && plants != NULL) {
+        json_array_append_new(plants, plant_json(&grown));
+    } else if (status == FR_OK) {
+        print_plant(&grown);
+    }
+    clear_grown(&grown);
+    return status;
+}
+
 static FrStatus describe_plants(CliSession *session, const FrDocument *document, json_t *plants) {
     const GPtrArray *definitions = fr_document_plants(document);
     FrStatus status = FR_OK;
     for (guint i = 0; i < definitions->len && status == FR_OK; i++) {
-        Grown grown;
-        status = grow(session, document, g_ptr_array_index(definitions, i), &grown);
-        if (status == FR_OK && plants != NULL) {
-            json_array_append_new(plants, plant_json(&grown));
-        } else if (status == FR_OK) {
-            print_plant(&grown);
-        }
-        clear_grown(&grown);
+        const FrPlantDef *definition = g_ptr_array_index(definitions, i);
+        status = definition->kind == FR_PLANT_VARIED
+                     ? describe_varied(session, document, definition, plants)
+                     : describe_grown(session, document, definition, plants);
     }
     return status;
 }

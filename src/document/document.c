@@ -6,6 +6,7 @@
 static void free_plant(void *data) {
     FrPlantDef *plant = data;
     fr_pgraph_free(plant->pgraph);
+    fr_vary_free(plant->vary);
     g_free(plant->id);
     g_free(plant);
 }

@@ -75,13 +75,19 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
     [FR_ELEMENT_PLANT] = {.name = "plant",
                           .table = &plant_table,
                           .has_id = true,
-                          .children = SET(PGRAPH)},
+                          .children = SET(PGRAPH) | SET(VARY)},
     [FR_ELEMENT_PGRAPH] = {.name = "pgraph",
                            .meaning = "linked components that are expanded to a plant "
                                       "(Lintermann, Deussen 1999)",
                            .is_once = true,
                            .children = SET(LINK) | COMPONENTS},
     [FR_ELEMENT_LINK] = {.name = "link", .table = &link_table, .required = "from to"},
+    [FR_ELEMENT_VARY] = {.name = "vary",
+                         .is_once = true,
+                         .required = "base",
+                         .children = SET(STROKE) | SET(INDICATOR)},
+    [FR_ELEMENT_STROKE] = {.name = "stroke", .has_text = true},
+    [FR_ELEMENT_INDICATOR] = {.name = "indicator", .required = "to"},
     [FR_ELEMENT_SCENE] = {.name = "scene",
                           .table = &scene_table,
                           .is_once = true,
@@ -100,6 +106,12 @@ FrElement fr_element(FrElementId id) {
     }
     if (id == FR_ELEMENT_MATERIAL) {
         element.table = fr_material_table();
+    } else if (id == FR_ELEMENT_VARY) {
+        element.table = fr_vary_table();
+    } else if (id == FR_ELEMENT_STROKE) {
+        element.table = fr_stroke_table();
+    } else if (id == FR_ELEMENT_INDICATOR) {
+        element.table = fr_indicator_table();
     }
     if (element.meaning == NULL) {
         element.meaning = element.table->meaning;

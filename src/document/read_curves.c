@@ -29,8 +29,7 @@ static void read_curve(FrReader *reader, uint32_t node, const char *id) {
     fr_params_clear(table, &params);
 }
 
-/// The text within an element and its place, from its first to its last text or CDATA section.
-static char *text_of(const FrReader *reader, uint32_t node, FrXmlRange *place) {
+char *fr_read_text(const FrReader *reader, uint32_t node, FrXmlRange *place) {
     GString *text = g_string_new(NULL);
     *place = reader->tree->nodes[node].name;
     bool is_first = true;
@@ -61,7 +60,7 @@ static void read_function(FrReader *reader, uint32_t node, const char *id) {
     fr_params_init(table, &params);
     fr_read_attributes(reader, node, FR_ELEMENT_FUNCTION, &params);
     FrXmlRange place;
-    char *body = text_of(reader, node, &place);
+    char *body = fr_read_text(reader, node, &place);
     fr_read_note(reader,
                  fr_scope_add_function(reader->document->scope, id,
                                        params.parameters == NULL ? "" : params.parameters, body,

@@ -15,9 +15,16 @@ static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
 
     plant->pgraph = fr_pgraph_new(id, plant->seed);
     uint32_t graph = fr_read_first(reader, node, FR_ELEMENT_PGRAPH);
-    if (graph == FR_NONE) {
+    uint32_t vary = fr_read_first(reader, node, FR_ELEMENT_VARY);
+    if (graph == FR_NONE && vary == FR_NONE) {
         fr_read_error(reader, "missing-element", reader->tree->nodes[node].name,
-                      "the plant '%s' has no <pgraph>", id);
+                      "the plant '%s' has no <pgraph> and no <vary>", id);
+    } else if (graph != FR_NONE && vary != FR_NONE) {
+        fr_read_error(reader, "two-definitions", reader->tree->nodes[vary].name,
+                      "the plant '%s' is a <pgraph> already", id);
+    } else if (vary != FR_NONE) {
+        plant->kind = FR_PLANT_VARIED;
+        plant->vary = fr_read_vary(reader, vary);
     } else {
         fr_read_pgraph(reader, graph, plant->pgraph);
     }
@@ -66,4 +73,5 @@ void fr_read_plants(FrReader *reader, uint32_t parent) {
             }
         }
     }
+    fr_read_check_bases(reader);
 }

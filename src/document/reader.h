@@ -35,8 +35,15 @@ void fr_read_curves(FrReader *reader, uint32_t parent);
 void fr_read_materials(FrReader *reader, uint32_t parent);
 void fr_read_plants(FrReader *reader, uint32_t parent);
 void fr_read_pgraph(FrReader *reader, uint32_t node, FrPgraph *graph);
+/// Reads a `<vary>`; NULL after an error that leaves nothing of it.
+FrVary *fr_read_vary(FrReader *reader, uint32_t node);
+/// Reports varied plants whose base is no other plant.
+void fr_read_check_bases(FrReader *reader);
 void fr_read_scenes(FrReader *reader, uint32_t parent);
 
+/// The text within an element and its place, from its first to its last text or CDATA section.
+/// Free with g_free().
+char *fr_read_text(const FrReader *reader, uint32_t node, FrXmlRange *place);
 void fr_read_note(FrReader *reader, FrStatus status);
 /// An error at a place of the text.
 void fr_read_error(FrReader *reader, const char *code, FrXmlRange place, const char *format, ...)

@@ -21,9 +21,9 @@ static const char types[] =
     "  </xs:simpleType>\n"
     "  <xs:simpleType name=\"number\">\n"
     "    <xs:annotation><xs:documentation>45, 80..30, 45 ~ 5, 80..30 ~ 5 : t^2, "
-    "= 3 + 2*i</xs:documentation></xs:annotation>\n"
-    "    <xs:restriction base=\"xs:token\"><xs:pattern value=\"=.*|" REAL "( ?\\.\\. ?" REAL
-    ")?( ?~ ?" REAL ")?( ?:.*)?\"/></xs:restriction>\n"
+    "= 3 + 2*i, keys 0,10 5,80, 45 | parent dome</xs:documentation></xs:annotation>\n"
+    "    <xs:restriction base=\"xs:token\"><xs:pattern value=\"=.*|keys .*|" REAL "( ?\\.\\. ?" REAL
+    ")?( ?~ ?" REAL ")?( ?[:|].*)?\"/></xs:restriction>\n"
     "  </xs:simpleType>\n"
     "  <xs:simpleType name=\"switch\">\n"
     "    <xs:restriction base=\"xs:token\"><xs:enumeration value=\"yes\"/>"
@@ -132,7 +132,9 @@ static void append_keys(GString *out, FrElementId id) {
                  "    <xs:key name=\"views\"><xs:selector xpath=\"scene/view\"/>"
                  "<xs:field xpath=\"@name\"/></xs:key>\n"
                  "    <xs:keyref name=\"placed\" refer=\"plants\">"
-                 "<xs:selector xpath=\"scene/place\"/><xs:field xpath=\"@plant\"/></xs:keyref>\n");
+                 "<xs:selector xpath=\"scene/place\"/><xs:field xpath=\"@plant\"/></xs:keyref>\n"
+                 "    <xs:keyref name=\"varied\" refer=\"plants\">"
+                 "<xs:selector xpath=\"plant/vary\"/><xs:field xpath=\"@base\"/></xs:keyref>\n");
     } else if (id == FR_ELEMENT_PGRAPH) {
         g_string_append(out, "    <xs:key name=\"components\"><xs:selector xpath=\"");
         for (int i = 0; i < FR_COMPONENT_COUNT; i++) {

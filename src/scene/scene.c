@@ -1,5 +1,5 @@
 /// A document built: each plant once for every seed it stands with.
-#include "frond/scene.h"
+#include "scene/varied.h"
 
 #include <string.h>
 
@@ -9,6 +9,7 @@ typedef struct Build {
     FrScene *scene;
     GHashTable *definitions; ///< id → FrPlantDef *
     GHashTable *built;       ///< "id seed" → index into plants + 1
+    GHashTable *varied;      ///< FrPlantDef * → FrVaried *
     int64_t seed;            ///< < 0: as the document says
     uint64_t bytes;
 } Build;
@@ -46,8 +47,32 @@ static uint64_t seed_of(const Build *build, const FrPlantDef *definition, int64_
                            : fr_key_child(fr_key_root((uint64_t)build->seed), (uint64_t)own_seed);
 }
 
+/// Adds an instance of a varied plant to the scene; its base is built once.
+static FrStatus vary_plant(Build *build, const FrPlantDef *definition, uint64_t seed) {
+    FrVaried *varied = g_hash_table_lookup(build->varied, definition);
+    if (varied == NULL) {
+        FrStatus status = fr_varied_new(build->document, definition, build->context, &varied);
+        if (status != FR_OK) {
+            return status;
+        }
+        g_hash_table_insert(build->varied, (void *)definition, varied);
+        build->bytes = fr_count_add(build->bytes, fr_plant_bytes(varied->base));
+    }
+    build->bytes = fr_count_add(build->bytes, fr_plant_bytes(varied->base));
+    FrStatus status = fr_limit_check(build->bytes, build->context->limits.bytes, "bytes",
+                                     "the scene", definition->span, build->context->diags);
+    if (status == FR_OK) {
+        FrScenePlant made = fr_varied_instance(varied, seed);
+        g_array_append_val(build->scene->plants, made);
+    }
+    return status;
+}
+
 /// Builds a definition with a seed and adds it to the scene.
 static FrStatus build_plant(Build *build, const FrPlantDef *definition, uint64_t seed) {
+    if (definition->kind == FR_PLANT_VARIED) {
+        return vary_plant(build, definition, seed);
+    }
     FrPgraph *reseeded =
         seed == definition->seed ? NULL : fr_document_reseed(build->document, definition, seed);
     const FrPgraph *graph = reseeded == NULL ? definition->pgraph : reseeded;
@@ -159,6 +184,10 @@ static FrScene *new_scene(const FrDocument *document, int64_t seed) {
     return scene;
 }
 
+static void free_varied(void *varied) {
+    fr_varied_free(varied);
+}
+
 FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContext *context,
                         FrScene **scene) {
     *scene = NULL;
@@ -167,6 +196,7 @@ FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContex
                    .scene = new_scene(document, seed),
                    .definitions = g_hash_table_new(g_str_hash, g_str_equal),
                    .built = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
+                   .varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied),
                    .seed = seed};
     const GPtrArray *plants = fr_document_plants(document);
     for (guint i = 0; i < plants->len; i++) {
@@ -176,6 +206,7 @@ FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContex
     FrStatus status = build_places(&build);
     g_hash_table_unref(build.definitions);
     g_hash_table_unref(build.built);
+    g_hash_table_unref(build.varied);
     if (status != FR_OK) {
         fr_scene_free(build.scene);
         return status;

@@ -95,6 +95,7 @@ static double wander(FrVaryParams *params, uint32_t joints) {
 /// F25 d: 4.2 % for ρ = 0, 9.4 % for ρ = 0.7 at 64 joints; 24 to 42 % without feedback.
 static void tip_wanders(void) {
     FrVaryParams params = vary_params();
+    params.scatter = 3 * G_PI / 180;
     params.feedback = 0.15 / fr_vary_gain_limit(2, 0);
     params.persistence = 0;
     g_assert_cmpfloat_with_epsilon(wander(&params, 64), 0.042, 0.005);
