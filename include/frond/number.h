@@ -9,16 +9,25 @@
 ///     80..30 ~ 5 : t^2   the range walked by a function of t, i, n, depth, x, rand() …
 ///     80..30 : crown     the same by a named or built-in curve of t
 ///     = 3 + 2*i          the value itself as an expression (short for 0..1 : 3 + 2*i)
+///     45 | parent crown  times the curve at the place on the parent
+///     45 ~ 5 | depth 0,1 3,0.5 | season fall      … and by more: any variable and a curve over it
+///     keys 0,10 5,80     10 at time 0, 80 at time 5; `~` and `|` may follow
 ///
-/// The value is `from + f(t)·(to − from) + variance·r`, r uniform in [−1, 1) and keyed by the
-/// instance's path, clamped to the parameter's hard range, in SI units (degrees become radians).
+/// The value is `(v·C₁·C₂… + variance·r)·S`, with `v = from + f(t)·(to − from)`, the curves C over
+/// variables of the instance, S over its own length (`self`), and r uniform in [−1, 1) and keyed by
+/// the instance's path; clamped to the parameter's hard range, in SI units (degrees become
+/// radians). What is not written is neutral.
 #pragma once
 
 #include "frond/expr.h"
 
+/// Curves that a number is multiplied by, and its key frames.
+typedef struct FrFactors FrFactors;
+
 typedef struct FrNumber {
     double from, to, variance; ///< in the unit of the document
     FrExpr *function;          ///< owned; NULL: f(t) = t
+    FrFactors *factors;        ///< owned; NULL: none
     double scale;              ///< document unit → SI: π/180 for degrees, else 1
     double min, max;           ///< hard range, in the unit of the document
     bool is_constant;          ///< then `constant` is the value for every instance
@@ -32,6 +41,8 @@ FR_API void fr_number_clear(FrNumber *number);
 /// Parses the text form. Wrong text leaves `number` as it was.
 FR_API FrStatus fr_number_parse(FrNumber *number, const char *text, FrSpan span, double scale,
                                 double min, double max, const FrScope *scope, FrDiags *diags);
+/// Whether the value depends on the variable.
+FR_API bool fr_number_uses(const FrNumber *number, FrVar var);
 /// The slow path of fr_number_eval().
 FR_API double fr_number_eval_varying(const FrNumber *number, FrVars *vars, uint32_t purpose,
                                      FrExprFault *fault);

@@ -1,6 +1,7 @@
 // Numbers that vary: their text form and their value for one instance.
 #include "frond/number.h"
 
+#include "expr/factors.h"
 #include "expr/lexer.h"
 #include "expr/tree.h"
 
@@ -27,12 +28,28 @@ FrNumber fr_number_copy(const FrNumber *number) {
     if (copy.function != NULL) {
         fr_expr_ref(copy.function);
     }
+    fr_factors_ref(copy.factors);
     return copy;
 }
 
 void fr_number_clear(FrNumber *number) {
     fr_expr_unref(number->function);
     number->function = NULL;
+    fr_factors_unref(number->factors);
+    number->factors = NULL;
+}
+
+bool fr_number_uses(const FrNumber *number, FrVar var) {
+    if (number->is_constant) {
+        return false;
+    }
+    if (number->factors != NULL && fr_factors_use(number->factors, var)) {
+        return true;
+    }
+    if (number->function != NULL) {
+        return fr_expr_uses(number->function, var);
+    }
+    return var == FR_VAR_t && number->from != number->to;
 }
 
 // ---- value ------------------------------------------------------------------------------------
@@ -52,8 +69,15 @@ double fr_number_eval_varying(const FrNumber *number, FrVars *vars, uint32_t pur
     vars->value[FR_VAR_v] = number->from + t * range;
     double part = number->function != NULL ? fr_expr_eval(number->function, vars, fault) : t;
     double value = number->from + part * range;
+    if (number->factors != NULL) {
+        fr_factors_key(number->factors, vars, &value);
+        value *= fr_factors_product(number->factors, vars, false);
+    }
     if (number->variance != 0) {
         value += number->variance * fr_random_signed(vars->key, purpose, VARIANCE_DRAW);
+    }
+    if (number->factors != NULL) {
+        value *= fr_factors_product(number->factors, vars, true);
     }
     return limit(number, value);
 }
@@ -189,7 +213,35 @@ static bool read_function(Reader *reader, const FrScope *scope, FrNumber *number
     return number->function != NULL;
 }
 
+// A part of the text as a value of its own.
+static FrValueText part_of(const Reader *reader, const FrScope *scope, char *text, size_t begin) {
+    return (FrValueText){
+        .text = text,
+        .span = fr_place(reader->span, begin, begin + strlen(text)),
+        .scope = scope,
+        .diags = reader->diags,
+    };
+}
+
+// Key frames, up to a variance or the end.
+static bool read_keys(Reader *reader, const FrScope *scope, FrNumber *number) {
+    size_t begin = reader->at;
+    reader->at += MIN(strcspn(reader->text + begin, "~"), reader->size - begin);
+    char *text = g_strndup(reader->text + begin, reader->at - begin);
+    FrValueText value = part_of(reader, scope, text, begin);
+    bool is_good = fr_factors_read_keys(&number->factors, &value);
+    g_free(text);
+    if (is_good && accept(reader, "~") && !read_variance(reader, number)) {
+        return false;
+    }
+    skip_space(reader);
+    return is_good && (reader->at == reader->size || unexpected(reader, "the end, '~' or '|'"));
+}
+
 static bool read_number(Reader *reader, const FrScope *scope, FrNumber *number) {
+    if (accept(reader, "keys ")) {
+        return read_keys(reader, scope, number);
+    }
     if (accept(reader, "=")) {
         number->from = 0;
         number->to = 1;
@@ -212,12 +264,49 @@ static bool read_number(Reader *reader, const FrScope *scope, FrNumber *number) 
            unexpected(reader, "the end, '..', '~' or ':' (an expression begins with '=')");
 }
 
+// Where the curves of a number begin: at the first bar that is none of the operator `||`.
+static size_t find_bar(const char *text, size_t size) {
+    for (size_t k = 0; k < size; k++) {
+        if (text[k] == '|' && text[k + 1] == '|') {
+            k++;
+        } else if (text[k] == '|') {
+            return k;
+        }
+    }
+    return size;
+}
+
+// The number, then the curves behind its bar.
+static bool read_whole(Reader *reader, const FrScope *scope, FrNumber *number) {
+    size_t size = reader->size;
+    reader->size = find_bar(reader->text, size);
+    if (!read_number(reader, scope, number)) {
+        return false;
+    }
+    if (reader->size == size) {
+        return true;
+    }
+    size_t begin = reader->size + 1;
+    char *text = g_strndup(reader->text + begin, size - begin);
+    FrValueText value = part_of(reader, scope, text, begin);
+    FrFactors *keys = number->factors;
+    number->factors = fr_factors_read(&value);
+    bool is_good = number->factors != NULL;
+    if (is_good && keys != NULL) {
+        fr_factors_take_keys(number->factors, keys);
+    }
+    fr_factors_unref(keys);
+    g_free(text);
+    return is_good;
+}
+
 // Decides whether every instance has the same value, and works it out.
 static void settle(FrNumber *number, FrSpan span, FrDiags *diags) {
     double part = 0;
     bool is_range = number->from != number->to;
     bool is_fixed = number->function != NULL && fr_expr_is_constant(number->function, &part);
-    number->is_constant = number->variance == 0 && (!is_range || is_fixed);
+    number->is_constant =
+        number->variance == 0 && number->factors == NULL && (!is_range || is_fixed);
     number->constant = limit(number, number->from + part * (number->to - number->from));
     if (is_fixed) {
         // Then it fails for every instance or for none, and this is the time to say so.
@@ -236,7 +325,7 @@ FrStatus fr_number_parse(FrNumber *number, const char *text, FrSpan span, double
                          double max, const FrScope *scope, FrDiags *diags) {
     Reader reader = {.text = text, .size = strlen(text), .span = span, .diags = diags};
     FrNumber parsed = {.scale = scale, .min = min, .max = max};
-    if (!read_number(&reader, scope, &parsed)) {
+    if (!read_whole(&reader, scope, &parsed)) {
         fr_number_clear(&parsed);
         return FR_ERR_DOCUMENT;
     }

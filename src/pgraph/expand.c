@@ -307,7 +307,7 @@ static void begin_level(FrBuild *build) {
         level->offset[row] = (vec3s){{0, 0, 0}};
         level->rotation[row] = (versors){{0, 0, 0, 1}};
         level->scale[row] = 1;
-        level->key[row] = fr_key_child(root, fr_stage_prepared(expansion, stage)->key_word);
+        level->key[row] = fr_path_key(root, fr_stage_prepared(expansion, stage));
         level->i[row] = level->i1[row] = level->i2[row] = 0;
         level->n[row] = level->n1[row] = level->n2[row] = 1;
         level->generation[row] = level->order[row] = 0;
@@ -327,7 +327,7 @@ static uint64_t least_count(const FrNumber *number) {
     double least = 0; // a function may give anything
     if (number->is_constant) {
         least = number->constant;
-    } else if (number->function == NULL) {
+    } else if (number->function == NULL && number->factors == NULL) {
         least = fmin(number->from, number->to) - fabs(number->variance);
     }
     return (uint64_t)fmax(0, floor(least + 0.5));

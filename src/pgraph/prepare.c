@@ -19,12 +19,9 @@ static bool depends_on_place(const FrNumber *number) {
     if (number->is_constant) {
         return false;
     }
-    if (number->function == NULL) {
-        return number->from != number->to;
-    }
     for (int var = 0; var < FR_VAR_COUNT; var++) {
         // The plain range is walked before the function, but only t tells where.
-        if (fr_expr_uses(number->function, (FrVar)var)) {
+        if (fr_number_uses(number, (FrVar)var)) {
             return true;
         }
     }
@@ -37,8 +34,7 @@ static void note_variation(FrPrepared *made, const FrParamTable *table) {
             const FrNumber *number =
                 (const FrNumber *)((const char *)made->params + table->rows[row].offset);
             made->varies |= !number->is_constant;
-            made->uses_height |=
-                number->function != NULL && fr_expr_uses(number->function, FR_VAR_height);
+            made->uses_height |= fr_number_uses(number, FR_VAR_height);
         }
     }
     const FrBasicParams *basic = made->params;

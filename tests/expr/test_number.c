@@ -207,6 +207,74 @@ static void test_copy(void) {
     g_assert_cmpfloat(at(&constant, 0.5, 1), ==, 90 * degrees);
 }
 
+static double over(const FrNumber *number, FrVar var, double value) {
+    FrVars vars = {.value = {[FR_VAR_t] = 0.5}};
+    vars.value[var] = value;
+    return fr_number_eval(number, &vars, 5, NULL);
+}
+
+static void test_curves(void) {
+    FrNumber number = parse("10..20 | parent 0,1 1,3 | depth 0,1 2,0.5 | season fall", 1, 0, 90);
+    g_assert_cmpfloat_with_epsilon(over(&number, FR_VAR_x, 0), 15, 1e-12);
+    g_assert_cmpfloat_with_epsilon(over(&number, FR_VAR_x, 0.5), 30, 1e-12);
+    g_assert_cmpfloat_with_epsilon(over(&number, FR_VAR_depth, 1), 11.25, 1e-12);
+    g_assert_cmpfloat_with_epsilon(over(&number, FR_VAR_depth, 9), 7.5, 1e-12);
+    g_assert_cmpfloat_with_epsilon(over(&number, FR_VAR_season, 1), 0, 1e-12);
+    // Held within the hard range after all.
+    g_assert_cmpfloat(over(&number, FR_VAR_t, 20), ==, 90);
+    g_assert_true(fr_number_uses(&number, FR_VAR_depth) && fr_number_uses(&number, FR_VAR_t));
+    g_assert_false(fr_number_uses(&number, FR_VAR_age));
+    FrNumber copy = fr_number_copy(&number);
+    fr_number_clear(&number);
+    g_assert_cmpfloat_with_epsilon(over(&copy, FR_VAR_x, 0.5), 30, 1e-12);
+    fr_number_clear(&copy);
+    // One value with a curve is no constant, and a curve of 1 changes no bit.
+    number = parse("45 | parent flat", degrees, 0, 90);
+    g_assert_false(number.is_constant);
+    g_assert_cmpfloat(over(&number, FR_VAR_x, 0.3), ==, 45 * degrees);
+    fr_number_clear(&number);
+}
+
+static void test_chance_and_curves(void) {
+    // Chance is not made smaller by the parent's curve but by one along itself.
+    FrNumber parent = parse("40 ~ 5 | parent 0,1 1,0.5", 1, 0, 90);
+    FrNumber self = parse("40 ~ 5 | self 0,1 1,0.5", 1, 0, 90);
+    double chance = over(&parent, FR_VAR_x, 0) - 40;
+    g_assert_cmpfloat(fabs(chance), >, 0.01);
+    g_assert_cmpfloat_with_epsilon(over(&parent, FR_VAR_x, 1), 20 + chance, 1e-12);
+    g_assert_cmpfloat_with_epsilon(over(&self, FR_VAR_s, 1), 0.5 * (40 + chance), 1e-12);
+    fr_number_clear(&parent);
+    fr_number_clear(&self);
+}
+
+static void test_keys(void) {
+    FrNumber number = parse("keys 0,10 5,80 6,80 ~ 0 | depth 0,1 1,0.5", 1, 0, 90);
+    static const double frames[][2] = {{-1, 10}, {0, 10}, {5, 80}, {5.5, 80}, {99, 80}};
+    for (size_t k = 0; k < G_N_ELEMENTS(frames); k++) {
+        g_assert_cmpfloat_with_epsilon(over(&number, FR_VAR_time, frames[k][0]), frames[k][1],
+                                       1e-12);
+    }
+    g_assert_cmpfloat_with_epsilon(over(&number, FR_VAR_depth, 1), 5, 1e-12);
+    g_assert_true(fr_number_uses(&number, FR_VAR_time));
+    fr_number_clear(&number);
+}
+
+static void test_wrong_curves(void) {
+    assert_wrong("45 |", "unknown-name", 4, 4);
+    assert_wrong("45 | parnt fall", "unknown-name", 5, 10);
+    assert_wrong("45 | parent", "bad-number", 11, 11);
+    assert_wrong("45 | parent fal", "unknown-curve", 12, 15);
+    assert_wrong("45 | parent 0,1 x", "bad-value", 16, 17);
+    assert_wrong("45 | parent 0,1 0,1", "curve-order", 16, 19);
+    assert_wrong("45 | parent fall | ", "unknown-name", 19, 19);
+    assert_wrong("45 deg | parent fall", "bad-number", 3, 6);
+    assert_wrong("keys 0", "bad-value", 6, 6);
+    assert_wrong("keys ~ 5", "bad-number", 5, 5);
+    assert_wrong(
+        "45 | x fall | x fall | x fall | x fall | x fall | x fall | x fall | x fall | x 0,1",
+        "too-many-curves", 77, 78);
+}
+
 static void test_locale(void) {
     // Where such a locale is not installed this holds anyway.
     setlocale(LC_ALL, "de_DE.UTF-8");
@@ -228,6 +296,10 @@ int main(int argc, char **argv) {
     g_test_add_func("/expr/number/text without effect or value gets a warning", test_warnings);
     g_test_add_func("/expr/number/a fault gives the neutral value", test_fault);
     g_test_add_func("/expr/number/copies share the function", test_copy);
+    g_test_add_func("/expr/number/curves over anything multiply", test_curves);
+    g_test_add_func("/expr/number/chance is added after the curves", test_chance_and_curves);
+    g_test_add_func("/expr/number/key frames are values at moments", test_keys);
+    g_test_add_func("/expr/number/wrong curves have their places", test_wrong_curves);
     g_test_add_func("/expr/number/a decimal comma changes nothing", test_locale);
     return g_test_run();
 }

@@ -1,0 +1,171 @@
+#include "expr/factors.h"
+
+#include "expr/lexer.h"
+#include "expr/tree.h"
+
+#include <string.h>
+
+enum { MOST_FACTORS = 8 };
+
+typedef struct Factor {
+    FrVar var;
+    FrCurve *curve;
+} Factor;
+
+struct FrFactors {
+    gatomicrefcount references;
+    FrCurve *keys; // over time; NULL
+    uint32_t count;
+    Factor of[MOST_FACTORS];
+};
+
+static FrFactors *factors_new(void) {
+    FrFactors *factors = g_new0(FrFactors, 1);
+    g_atomic_ref_count_init(&factors->references);
+    return factors;
+}
+
+FrFactors *fr_factors_ref(FrFactors *factors) {
+    if (factors != NULL) {
+        g_atomic_ref_count_inc(&factors->references);
+    }
+    return factors;
+}
+
+void fr_factors_unref(FrFactors *factors) {
+    if (factors == NULL || !g_atomic_ref_count_dec(&factors->references)) {
+        return;
+    }
+    for (uint32_t k = 0; k < factors->count; k++) {
+        fr_curve_unref(factors->of[k].curve);
+    }
+    fr_curve_unref(factors->keys);
+    g_free(factors);
+}
+
+// ---- value ------------------------------------------------------------------------------------
+
+bool fr_factors_key(const FrFactors *factors, const FrVars *vars, double *value) {
+    if (factors->keys == NULL) {
+        return false;
+    }
+    *value = fr_curve_eval(factors->keys, vars->value[FR_VAR_time]);
+    return true;
+}
+
+double fr_factors_product(const FrFactors *factors, const FrVars *vars, bool is_along_itself) {
+    double product = 1;
+    for (uint32_t k = 0; k < factors->count; k++) {
+        const Factor *factor = &factors->of[k];
+        if ((factor->var == FR_VAR_s) == is_along_itself) {
+            product *= fr_curve_eval(factor->curve, vars->value[factor->var]);
+        }
+    }
+    return product;
+}
+
+bool fr_factors_use(const FrFactors *factors, FrVar var) {
+    for (uint32_t k = 0; k < factors->count; k++) {
+        if (factors->of[k].var == var) {
+            return true;
+        }
+    }
+    return var == FR_VAR_time && factors->keys != NULL;
+}
+
+// ---- text -------------------------------------------------------------------------------------
+
+// A curve by name or points; NULL and an error also if there is none.
+static FrCurve *read_curve(const FrValueText *value) {
+    static const FrParam row = {.name = "curve", .kind = FR_PARAM_CURVE, .unit = "", .choices = ""};
+    FrCurve *curve = NULL;
+    if (fr_value_parse(value, &row, &curve) == FR_OK && curve == NULL) {
+        fr_diags_add(value->diags, FR_ERROR, "bad-number", value->span,
+                     "here a curve is missing: its name or points x,y x,y");
+    }
+    return curve;
+}
+
+static bool find_variable(const char *name, FrVar *var) {
+    if (strcmp(name, "parent") == 0 || strcmp(name, "self") == 0) {
+        *var = name[0] == 'p' ? FR_VAR_x : FR_VAR_s;
+        return true;
+    }
+    return fr_variable_find(name, var);
+}
+
+// One clause: a variable, then a curve.
+static bool read_factor(FrFactors *factors, const FrValueText *clause) {
+    size_t begin = strspn(clause->text, " \t\r\n");
+    size_t end = begin + strcspn(clause->text + begin, " \t\r\n");
+    char *name = g_strndup(clause->text + begin, end - begin);
+    Factor factor = {0};
+    bool is_known = find_variable(name, &factor.var);
+    if (!is_known) {
+        fr_diags_add(clause->diags, FR_ERROR, "unknown-name", fr_place(clause->span, begin, end),
+                     "here should be what a curve is over: parent, self, depth, order, age, season "
+                     "or another variable, not '%.40s'",
+                     name);
+    }
+    g_free(name);
+    if (is_known && factors->count == MOST_FACTORS) {
+        fr_diags_add(clause->diags, FR_ERROR, "too-many-curves", fr_place(clause->span, begin, end),
+                     "a number has at most %d curves", MOST_FACTORS);
+        return false;
+    }
+    if (!is_known) {
+        return false;
+    }
+    char *text = g_strstrip(g_strdup(clause->text + end));
+    size_t size = strlen(clause->text);
+    FrValueText value = *clause;
+    value.text = text;
+    size_t first = end + strspn(clause->text + end, " \t\r\n");
+    value.span = fr_place(clause->span, first, MAX(first + strlen(text), MIN(first, size)));
+    factor.curve = read_curve(&value);
+    g_free(text);
+    if (factor.curve != NULL) {
+        factors->of[factors->count++] = factor;
+    }
+    return factor.curve != NULL;
+}
+
+FrFactors *fr_factors_read(const FrValueText *value) {
+    FrFactors *factors = factors_new();
+    bool is_good = true;
+    size_t begin = 0;
+    while (is_good) {
+        size_t end = begin + strcspn(value->text + begin, "|");
+        char *text = g_strndup(value->text + begin, end - begin);
+        FrValueText clause = *value;
+        clause.text = text;
+        clause.span = fr_place(value->span, begin, end);
+        is_good = read_factor(factors, &clause);
+        g_free(text);
+        if (value->text[end] == '\0') {
+            break;
+        }
+        begin = end + 1;
+    }
+    if (!is_good) {
+        fr_factors_unref(factors);
+        return NULL;
+    }
+    return factors;
+}
+
+bool fr_factors_read_keys(FrFactors **factors, const FrValueText *value) {
+    FrCurve *keys = read_curve(value);
+    if (keys == NULL) {
+        return false;
+    }
+    if (*factors == NULL) {
+        *factors = factors_new();
+    }
+    (*factors)->keys = keys;
+    return true;
+}
+
+void fr_factors_take_keys(FrFactors *factors, const FrFactors *other) {
+    factors->keys = other->keys != NULL ? fr_curve_ref(other->keys) : NULL;
+}

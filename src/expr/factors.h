@@ -1,0 +1,18 @@
+// What makes a number vary beside its range: curves it is multiplied by, key frames.
+#pragma once
+
+#include "expr/param_value.h"
+
+/// Reads the clauses of a number behind its first `|`, which stand in `value`. NULL if wrong.
+FrFactors *fr_factors_read(const FrValueText *value);
+/// Adds key frames. False if their text is wrong.
+bool fr_factors_read_keys(FrFactors **factors, const FrValueText *value);
+/// Shares the key frames of another.
+void fr_factors_take_keys(FrFactors *factors, const FrFactors *other);
+FrFactors *fr_factors_ref(FrFactors *factors);
+void fr_factors_unref(FrFactors *factors);
+/// The key frames' value now; false if there are none.
+bool fr_factors_key(const FrFactors *factors, const FrVars *vars, double *value);
+/// The product of the curves along the component itself, or of all others.
+double fr_factors_product(const FrFactors *factors, const FrVars *vars, bool is_along_itself);
+bool fr_factors_use(const FrFactors *factors, FrVar var);
