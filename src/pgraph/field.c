@@ -186,14 +186,17 @@ static bool lift(const FrField *force, const FrPrepared *prepared, const double 
             along[r] = heading[r] - rise * outward[r];
         }
         double size = sqrt(dot(along, along));
+        if (size < 1e-6) { // straight at it: aside, always to the same side
+            int k0 = fabs(outward[0]) < 0.6 ? 0 : 1;
+            for (int r = 0; r < 3; r++) {
+                along[r] = (r == k0) - outward[k0] * outward[r];
+            }
+            size = sqrt(dot(along, along));
+        }
         double wanted = fmin(rise + 1.01 * depth / length, 1);
         double flat = sqrt(fmax(0, 1 - wanted * wanted));
         for (int r = 0; r < 3; r++) {
-            heading[r] = wanted * outward[r] + (size > 1e-6 ? flat * along[r] / size : 0);
-        }
-        size = sqrt(dot(heading, heading));
-        for (int r = 0; r < 3; r++) {
-            heading[r] = size > SHORTEST ? heading[r] / size : outward[r];
+            heading[r] = wanted * outward[r] + flat * along[r] / size;
         }
         is_turned = true;
     }

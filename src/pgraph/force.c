@@ -64,7 +64,7 @@ static void nearest_on(const GArray *path, const double at[3], double point[3], 
             double miss = way[r] - t * chord[r];
             square += miss * miss;
         }
-        if (square < best && size > 0) {
+        if (square <= best && size > 0) { // at a corner what comes next leads on
             best = square;
             for (int r = 0; r < 3; r++) {
                 point[r] = (double)a.raw[r] + t * chord[r];

@@ -1,5 +1,7 @@
 #include "pgraph/instance.h"
 
+#include "pgraph/global.h"
+
 #include "plant/frames.h"
 
 #include <cglm/struct.h>
@@ -39,6 +41,9 @@ void fr_instance_enter(const FrExpansion *expansion, uint32_t row, FrEvaluator *
     evaluator->component = component;
     evaluator->instance = level->first + row;
     evaluator->vars.key = level->key[row];
+    if (fr_is_global(prepared->kind)) {
+        evaluator->vars.key = fr_key_child(level->key[row], prepared->key_word);
+    }
     if (!prepared->varies) {
         return;
     }
@@ -169,7 +174,7 @@ void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLin
     next->offset[at] = child->site.offset;
     next->rotation[at] = child->site.rotation;
     next->scale[at] = (float)fmax(SMALLEST, fmin(child->site.scale, LARGEST));
-    next->key[at] = fr_key_child(child->key, expansion->prepared[stage->component].key_word);
+    next->key[at] = fr_path_key(child->key, &expansion->prepared[stage->component]);
     next->i[at] = child->i;
     next->n[at] = child->n;
     next->i1[at] = child->is_multiplied ? level->i[row] : level->i1[row];

@@ -55,7 +55,9 @@ void fr_make_single_children(const FrExpansion *expansion, uint32_t row, FrChild
             continue;
         }
         FrChild one = child;
-        one.key = fr_key_child(level->key[row], FR_NONE - (uint64_t)link->kind);
+        one.key = fr_is_global(prepared->kind)
+                      ? level->key[row]
+                      : fr_key_child(level->key[row], FR_NONE - (uint64_t)link->kind);
         if (goes_on(prepared, to, child.axis)) {
             one.joint = FR_JOINT_SET;
             child.axis = FR_NONE;

@@ -332,6 +332,23 @@ static void threads(void) {
     }
 }
 
+static void no_part_of_paths(void) {
+    // Put in or taken out, a deformation leaves all random numbers below as they were.
+    const char *parts = "tree stem number=9;gnarl=20\nhorn twig length=.2 ~ .1;gnarl=30\n"
+                        "ffd ffd strength=1 ~ 1\n";
+    char *with = g_strconcat(parts, "stem = ffd\nffd - twig", NULL);
+    char *without = g_strconcat(parts, "stem = twig", NULL);
+    Built a = build(with), b = build(without);
+    g_assert_cmpuint(a.plant->axes.count, ==, 10);
+    for (uint32_t k = 0; k < 10; k++) {
+        g_assert_cmpuint(a.plant->axes.path[k], ==, b.plant->axes.path[k]);
+    }
+    g_free(with);
+    g_free(without);
+    built_free(a);
+    built_free(b);
+}
+
 static void too_deep(void) {
     Built built = build_graph(graph_read("ffd a depth=65\na - a"), NULL);
     g_assert_cmpint(built.status, ==, FR_ERR_LIMIT);
@@ -383,6 +400,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/pgraph/deform/a mirror keeps the outside outside", mirrored);
     g_test_add_func("/pgraph/deform/the digest knows deformations", digests);
     g_test_add_func("/pgraph/deform/any number of threads deforms alike", threads);
+    g_test_add_func("/pgraph/deform/a deformation is no part of paths", no_part_of_paths);
     g_test_add_func("/pgraph/deform/too many scopes in one another are refused", too_deep);
     g_test_add_func("/pgraph/deform/wrong points, boxes and functions are errors", wrong_texts);
     return g_test_run();
