@@ -43,6 +43,14 @@ static const LimitRow *find_limit(const char *name) {
     return NULL;
 }
 
+static char *names_of_limits(void) {
+    GString *names = g_string_new(NULL);
+    for (size_t i = 0; i < G_N_ELEMENTS(LIMIT_ROWS); i++) {
+        g_string_append_printf(names, "%s%s", i == 0 ? "" : ", ", LIMIT_ROWS[i].name);
+    }
+    return g_string_free(names, FALSE);
+}
+
 FrStatus fr_limits_set(FrLimits *limits, const char *name, const char *value, FrDiags *diags) {
     const LimitRow *row = find_limit(name);
     if (row == NULL) {
@@ -51,10 +59,12 @@ FrStatus fr_limits_set(FrLimits *limits, const char *name, const char *value, Fr
             names[i] = LIMIT_ROWS[i].name;
         }
         const char *near = fr_nearest_name(name, names, G_N_ELEMENTS(names));
+        char *all = near == NULL ? names_of_limits() : NULL;
         fr_diags_add(diags, FR_ERROR, "unknown-limit", (FrSpan){0},
-                     near != NULL ? "there is no limit '%s'; did you mean '%s'?"
-                                  : "there is no limit '%s'",
-                     name, near);
+                     near != NULL ? "there is no limit '%.64s'; did you mean '%s'?"
+                                  : "there is no limit '%.64s'; there are: %s",
+                     name, near != NULL ? near : all);
+        g_free(all);
         return FR_ERR_USAGE;
     }
     guint64 number = 0;

@@ -55,7 +55,9 @@ static bool take_size(CliOptions *options, const char *value) {
                     g_ascii_string_to_unsigned(sides[1], 10, 1, 32768, &height, NULL);
     g_strfreev(sides);
     if (!is_right) {
-        cli_message("--size takes WIDTHxHEIGHT in pixels, like 960x1200, not '%s'", value);
+        cli_message(
+            "--size takes WIDTHxHEIGHT in pixels, like 960x1200, each from 1 to 32768, not '%s'",
+            value);
     }
     options->width = (int64_t)width;
     options->height = (int64_t)height;
@@ -224,7 +226,8 @@ void cli_options_clear(CliOptions *options) {
     g_free(options->view);
 }
 
-static void report_unknown(const char *name, const CliVerb *verb) {
+/// `name` is without its dashes. No name is near a single letter.
+static void report_unknown(const char *name, bool is_long, const CliVerb *verb) {
     const char *names[G_N_ELEMENTS(rows)];
     size_t count = 0;
     for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
@@ -232,12 +235,12 @@ static void report_unknown(const char *name, const CliVerb *verb) {
             names[count++] = rows[i].name;
         }
     }
-    const char *near = fr_nearest_name(name, names, count);
+    const char *near = is_long ? fr_nearest_name(name, names, count) : NULL;
     if (near != NULL) {
         cli_message("unknown option '--%s'; did you mean '--%s'?", name, near);
     } else {
-        cli_message("unknown option '--%s'; frond %s -h lists them", name,
-                    verb == NULL ? "" : verb->name);
+        cli_message("unknown option '%s%s'; frond %s%s-h lists them", is_long ? "--" : "-", name,
+                    verb == NULL ? "" : verb->name, verb == NULL ? "" : " ");
     }
 }
 
@@ -270,7 +273,7 @@ static bool take_option(CliOptions *options, const CliVerb *verb, int count, cha
     const OptionRow *row = is_long ? find_row(name, length, 0) : find_row(NULL, 0, argument[1]);
     if (row == NULL) {
         char *unknown = is_long ? g_strndup(name, length) : g_strdup(argument + 1);
-        report_unknown(unknown, verb);
+        report_unknown(unknown, is_long, verb);
         g_free(unknown);
         return false;
     }

@@ -234,7 +234,10 @@ FrStatus fr_document_set(FrDocument *document, const char *path, const char *val
     char **parts = g_strsplit(path, ".", 4);
     guint count = g_strv_length(parts);
     FrStatus status = FR_ERR_USAGE;
-    if (count < 2 || count > 3 || !g_utf8_validate(value, -1, NULL)) {
+    if (!g_utf8_validate(value, -1, NULL)) {
+        fr_diags_add(context->diags, FR_ERROR, "encoding", (FrSpan){0},
+                     "the value for '%.64s' is not UTF-8: '%.64s'", path, value);
+    } else if (count < 2 || count > 3) {
         fr_diags_add(context->diags, FR_ERROR, "bad-path", (FrSpan){0},
                      "'%.64s' is not of the form id.attribute or plant.component.attribute", path);
     } else {
