@@ -2,7 +2,7 @@
 _frond() {
     local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} verb=
     [[ $COMP_CWORD -gt 1 ]] && verb=${COMP_WORDS[1]}
-    local verbs='build render check info presets new derive schema reference'
+    local verbs='build render check info presets new derive vary schema reference'
     local reading='--seed --set --threads --limit --diag --quiet --verbose --help'
     local making="--output --lod --stats $reading"
     case $previous in
@@ -16,6 +16,7 @@ _frond() {
     case $verb in
     '') mapfile -t COMPREPLY < <(compgen -W "$verbs --help --version" -- "$current") && return ;;
     build) making+=' --leaves' ;;
+    vary) making+=' --leaves --count --plant --size --samples' ;;
     render) making+=' --size --samples --camera' ;;
     check) making=$reading ;;
     info) making="--json $reading" ;;

@@ -19,7 +19,8 @@ typedef enum CliVerbId {
     CLI_SCHEMA = 1 << 6,
     CLI_REFERENCE = 1 << 7,
     CLI_DERIVE = 1 << 8,
-    CLI_ALL = (1 << 9) - 1
+    CLI_VARY = 1 << 9,
+    CLI_ALL = (1 << 10) - 1
 } CliVerbId;
 
 typedef struct CliOptions {
@@ -29,11 +30,13 @@ typedef struct CliOptions {
     int64_t seed;       ///< < 0: as the document says
     int threads;        ///< 0: one per processor
     int64_t steps;      ///< < 0: as the L-system says
+    int64_t count;      ///< instances of a collection; 0: the default
     int64_t lod;
     int64_t samples, width, height; ///< 0: the default
     FrLeaves leaves;
     FrLimits limits;
     char *camera, *stats, *preset; ///< NULL: not given
+    char *plant;                   ///< to vary, NULL: the first that is a variation
     char *view;                    ///< of an L-system, NULL: the .v beside it if there is one
     bool prints_count;             ///< derive --print count
     bool is_json, is_diag_json, is_quiet, is_verbose, wants_help, wants_version;
@@ -155,5 +158,6 @@ FrStatus cli_info(CliSession *session);
 FrStatus cli_presets(CliSession *session);
 FrStatus cli_new(CliSession *session);
 FrStatus cli_derive(CliSession *session);
+FrStatus cli_vary(CliSession *session);
 FrStatus cli_schema(CliSession *session);
 FrStatus cli_reference(CliSession *session);

@@ -17,6 +17,8 @@ static const CliVerb verbs[] = {
     {CLI_NEW, "new", "NAME --preset SPECIES", "begin a document NAME.frond from a species", cli_new,
      1, 1},
     {CLI_DERIVE, "derive", "FILE.l", "derive an L-system and print its string", cli_derive, 1, 1},
+    {CLI_VARY, "vary", "DOC -o FOLDER", "make a collection of instances of a plant", cli_vary, 1,
+     1},
     {CLI_SCHEMA, "schema", "", "print the XML Schema of documents", cli_schema, 0, 0},
     {CLI_REFERENCE, "reference", "", "print the reference of elements and attributes",
      cli_reference, 0, 0},
@@ -57,7 +59,7 @@ static const CliVerb *find_verb(const char *name) {
 }
 
 static void report_unknown_verb(const char *name) {
-    static const char *const planned[] = {"vary", "convert"};
+    static const char *const planned[] = {"convert"};
     const char *names[G_N_ELEMENTS(verbs)];
     for (size_t i = 0; i < G_N_ELEMENTS(verbs); i++) {
         names[i] = verbs[i].name;

@@ -43,6 +43,10 @@ static bool take_lod(CliOptions *options, const char *value) {
     return take_integer("lod", value, 0, 8, &options->lod);
 }
 
+static bool take_count(CliOptions *options, const char *value) {
+    return take_integer("count", value, 1, 1000000, &options->count);
+}
+
 static bool take_samples(CliOptions *options, const char *value) {
     return take_integer("samples", value, 1, 65536, &options->samples);
 }
@@ -141,6 +145,10 @@ static bool take_print(CliOptions *options, const char *value) {
     return is_right;
 }
 
+static bool take_plant(CliOptions *options, const char *value) {
+    return replace_text(&options->plant, value);
+}
+
 static bool take_camera(CliOptions *options, const char *value) {
     return replace_text(&options->camera, value);
 }
@@ -179,21 +187,27 @@ static bool take_version(CliOptions *options, const char *value) {
 }
 
 enum {
-    READING = CLI_BUILD | CLI_RENDER | CLI_CHECK | CLI_INFO | CLI_DERIVE,
-    MAKING = CLI_BUILD | CLI_RENDER,
+    READING = CLI_BUILD | CLI_RENDER | CLI_CHECK | CLI_INFO | CLI_DERIVE | CLI_VARY,
+    MAKING = CLI_BUILD | CLI_RENDER | CLI_VARY,
+    DRAWING = CLI_BUILD | CLI_RENDER | CLI_DERIVE,
 };
 
 static const OptionRow rows[] = {
-    {"output", 'o', "FILE", MAKING, "write FILE; its extension says the format", take_output},
+    {"output", 'o', "FILE", MAKING, "write FILE; its extension says the format; vary: a folder",
+     take_output},
     {"seed", 0, "N", READING, "grow all plants from this seed", take_seed},
     {"set", 0, "PATH=VALUE", READING, "change an attribute, like trunk.length=9", take_set},
     {"lod", 0, "N", MAKING, "level of detail: 0 finest, to 8", take_lod},
-    {"leaves", 0, "HOW", CLI_BUILD, "in glTF: merged (default), nodes, gpu", take_leaves},
-    {"steps", 0, "N", MAKING | CLI_DERIVE, "steps of an L-system", take_steps},
-    {"view", 0, "FILE", MAKING | CLI_DERIVE, "the view (.v) of an L-system", take_view},
+    {"leaves", 0, "HOW", CLI_BUILD | CLI_VARY, "in glTF: merged (default), nodes, gpu",
+     take_leaves},
+    {"steps", 0, "N", DRAWING, "steps of an L-system", take_steps},
+    {"view", 0, "FILE", DRAWING, "the view (.v) of an L-system", take_view},
     {"print", 0, "WHAT", CLI_DERIVE, "string (default) or count", take_print},
-    {"size", 0, "WxH", CLI_RENDER, "pixels of the picture", take_size},
-    {"samples", 0, "N", CLI_RENDER, "paths per pixel", take_samples},
+    {"count", 0, "N", CLI_VARY, "instances; 7 if not given", take_count},
+    {"plant", 0, "NAME", CLI_VARY, "the plant to vary", take_plant},
+    {"size", 0, "WxH", CLI_RENDER | CLI_VARY, "pixels of the picture, of each picture of a sheet",
+     take_size},
+    {"samples", 0, "N", CLI_RENDER | CLI_VARY, "paths per pixel", take_samples},
     {"camera", 0, "NAME", CLI_RENDER, "the view of that name", take_camera},
     {"preset", 0, "NAME", CLI_NEW, "the species to begin with; see frond presets", take_preset},
     {"json", 0, NULL, CLI_INFO | CLI_PRESETS, "for programs instead of people", take_json},
@@ -223,6 +237,7 @@ void cli_options_clear(CliOptions *options) {
     g_free(options->camera);
     g_free(options->stats);
     g_free(options->preset);
+    g_free(options->plant);
     g_free(options->view);
 }
 
