@@ -48,7 +48,7 @@ typedef struct FrSkinJob {
 } FrSkinJob;
 
 static FrDeformNote *notes_of(const FrSkinJob *job, int worker) {
-    return job->notes + (size_t)worker * job->deformations;
+    return job->notes != NULL ? job->notes + (size_t)worker * job->deformations : NULL;
 }
 
 static void measure_range(void *data, size_t begin, size_t end, int worker) {
