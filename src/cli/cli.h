@@ -90,6 +90,8 @@ void cli_session_close(CliSession *session);
 void cli_session_flush(CliSession *session);
 /// The signal that asked to stop, 0 if none did.
 int cli_session_signal(void);
+/// False after a message if `input` is a file that -o or --stats names.
+bool cli_check_spared(const CliOptions *options, const char *input);
 /// Reads a document and applies --set.
 FR_MUST_USE FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **document);
 /// Reads and builds. On failure both are NULL.

@@ -82,7 +82,11 @@ static void report_unknown_verb(const char *name) {
 static bool check_files(const CliVerb *verb, const CliOptions *options) {
     guint count = options->files->len;
     if (count >= verb->least_files && count <= verb->most_files) {
-        return true;
+        bool are_spared = true;
+        for (guint i = 0; i < count && are_spared; i++) {
+            are_spared = cli_check_spared(options, g_ptr_array_index(options->files, i));
+        }
+        return are_spared;
     }
     if (count < verb->least_files) {
         cli_message("'%s' needs a file: frond %s %s", verb->name, verb->name, verb->synopsis);

@@ -2,6 +2,7 @@
 #include "cli/cli.h"
 
 #include <errno.h>
+#include <glib/gstdio.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -83,6 +84,42 @@ void cli_session_flush(CliSession *session) {
     session->context.diags = fr_diags_new();
 }
 
+bool cli_check_spared(const CliOptions *options, const char *input) {
+    GStatBuf read, written;
+    if (g_stat(input, &read) != 0) {
+        return true; // reading it will say so
+    }
+    for (guint i = 0; i <= options->outputs->len; i++) {
+        const char *output =
+            i < options->outputs->len ? g_ptr_array_index(options->outputs, i) : options->stats;
+        bool is_same = output != NULL && strcmp(output, "-") != 0 &&
+                       g_stat(output, &written) == 0 && S_ISREG(written.st_mode) &&
+                       written.st_dev == read.st_dev && written.st_ino == read.st_ino;
+        if (is_same) {
+            cli_message("'%s' would be overwritten: it is read", output);
+            return false;
+        }
+    }
+    return true;
+}
+
+/// The user's own pictures are not overwritten either.
+static bool check_pictures_spared(const CliOptions *options, const FrDocument *document) {
+    const char *folder = fr_document_folder(document);
+    const GPtrArray *materials = fr_document_materials(document);
+    bool are_spared = true;
+    for (guint i = 0; i < materials->len && are_spared; i++) {
+        const FrMaterialParams *params = fr_material_params(g_ptr_array_index(materials, i));
+        const char *files[] = {params->picture, params->normal_map, params->roughness_map};
+        for (size_t k = 0; k < G_N_ELEMENTS(files) && are_spared; k++) {
+            char *path = files[k] == NULL ? NULL : g_build_filename(folder, files[k], NULL);
+            are_spared = path == NULL || *files[k] == '\0' || cli_check_spared(options, path);
+            g_free(path);
+        }
+    }
+    return are_spared;
+}
+
 FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **document) {
     double began = cli_now();
     FrStatus status = fr_document_load(path, &session->context, document);
@@ -92,6 +129,9 @@ FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **do
         char *name = g_strndup(set, (gsize)(equals - set));
         status = fr_document_set(*document, name, equals + 1, &session->context);
         g_free(name);
+    }
+    if (status == FR_OK && !check_pictures_spared(session->options, *document)) {
+        status = FR_ERR_USAGE;
     }
     if (status != FR_OK) {
         fr_document_free(*document);

@@ -24,7 +24,7 @@ static const Command commands[] = {
     {"biuld x", 2, "", "frond: there is no verb 'biuld'; did you mean 'build'?*"},
     {"xyzzy", 2, "", "frond: there is no verb 'xyzzy'*build*render*"},
     {"derive x.l", 1, "", "*x.l*"},
-    {"vary x.frond", 2, "", "frond: 'vary' is not in this version*"},
+    {"vary x.frond", 2, "", "frond: vary needs one folder to write to*"},
     {"convert a b", 2, "", "frond: 'convert' is not in this version*"},
     {"build x --sede 3", 2, "", "frond: unknown option '--sede'; did you mean '--seed'?\n"},
     {"build x -z", 2, "", "frond: unknown option '-z'; frond build -h lists them\n"},
@@ -205,6 +205,38 @@ static void test_outputs_keep_their_kind(void) {
     leave_folder(folder, previous);
 }
 
+/// What a picture or model is made from is not replaced by it.
+static void test_inputs_are_spared(void) {
+    char *previous;
+    char *folder = enter_folder(&previous);
+    const char *document = "<frond version='1'><material id='m' picture='leaf.png'/><plant id='p'>"
+                           "<pgraph><horn id='h' material='m'/></pgraph></plant></frond>";
+    g_assert_true(g_file_set_contents("a.frond", document, -1, NULL));
+    g_assert_true(g_file_set_contents("leaf.png", "a picture", -1, NULL));
+    g_assert_cmpint(symlink("a.frond", "a.glb"), ==, 0);
+    const char *writing[] = {"build a.frond --stats a.frond", "build a.frond -o b.glb -o a.glb",
+                             "render ./a.frond -o ../$F/leaf.png",
+                             "build a.frond --stats leaf.png"};
+    for (size_t i = 0; i < G_N_ELEMENTS(writing); i++) {
+        char **parts = g_strsplit(writing[i], "$F", -1);
+        char *name = g_path_get_basename(folder);
+        char *line = g_strjoinv(name, parts);
+        Run refused = run(line);
+        g_assert_cmpint(refused.exit, ==, 2);
+        g_assert_nonnull(strstr(refused.err, "would be overwritten"));
+        clear(&refused);
+        g_free(line);
+        g_free(name);
+        g_strfreev(parts);
+    }
+    char *text;
+    g_assert_true(g_file_get_contents("a.frond", &text, NULL, NULL));
+    g_assert_cmpstr(text, ==, document);
+    g_free(text);
+    g_assert_false(g_file_test("b.glb", G_FILE_TEST_EXISTS));
+    leave_folder(folder, previous);
+}
+
 static void test_new(void) {
     char *previous;
     char *folder = enter_folder(&previous);
@@ -263,6 +295,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/cli/statistics agree with the model", test_stats);
     g_test_add_func("/cli/a link or device that is written to stays one",
                     test_outputs_keep_their_kind);
+    g_test_add_func("/cli/what is read is not overwritten", test_inputs_are_spared);
     g_test_add_func("/cli/a seed gives the same plant for any number of threads", test_same_seed);
     g_test_add_func("/cli/a preset begins a document and overwrites none", test_new);
     g_test_add_func("/cli/an interrupt leaves no file", test_interrupted);
