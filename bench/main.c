@@ -10,8 +10,9 @@ static const struct {
     const char *name;
     void (*run)(void);
 } benches[] = {
-    {"plant", bench_plant}, {"expr", bench_expr}, {"pgraph", bench_pgraph},
-    {"skin", bench_skin},   {"io", bench_io},
+    {"plant", bench_plant},     {"expr", bench_expr}, {"pgraph", bench_pgraph},
+    {"lsystem", bench_lsystem}, {"skin", bench_skin}, {"nurbs", bench_nurbs},
+    {"io", bench_io},
 };
 
 static GArray *results; // BenchResult
@@ -114,7 +115,8 @@ int main(int argc, char **argv) {
         }
     }
     if (unknown != 0) {
-        fprintf(stderr, "usage: frond-bench [plant] [expr] [pgraph] [skin] [io] [--json]\n");
+        fprintf(stderr,
+                "usage: frond-bench [plant] [expr] [pgraph] [lsystem] [skin] [io] [--json]\n");
         return 2;
     }
     if (is_json) {

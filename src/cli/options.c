@@ -108,6 +108,28 @@ static bool take_limit(CliOptions *options, const char *value) {
     return status == FR_OK;
 }
 
+static bool take_nurbs(CliOptions *options, const char *value) {
+    const char *equals = strchr(value, '=');
+    char *name = g_strndup(value, equals != NULL ? (gsize)(equals - value) : strlen(value));
+    const FrParam *param = fr_params_find(fr_nurbs_table(), name);
+    bool is_right = false;
+    if (equals == NULL || param == NULL) {
+        cli_message("--nurbs takes circle, join, frames, profile-degree, caps or foliage=VALUE, "
+                    "not '%s'",
+                    value);
+    } else {
+        FrDiags *diags = fr_diags_new();
+        is_right = fr_params_set(fr_nurbs_table(), &options->nurbs, param, equals + 1, (FrSpan){0},
+                                 NULL, diags) == FR_OK;
+        if (!is_right && fr_diags_count(diags) > 0) {
+            cli_message("%s", fr_diags_get(diags, 0)->text);
+        }
+        fr_diags_free(diags);
+    }
+    g_free(name);
+    return is_right;
+}
+
 static bool take_set(CliOptions *options, const char *value) {
     if (strchr(value, '=') == NULL) {
         cli_message("--set takes PATH=VALUE, like trunk.length=9, not '%s'", value);
@@ -200,6 +222,8 @@ static const OptionRow rows[] = {
     {"lod", 0, "N", MAKING, "level of detail: 0 finest, to 8", take_lod},
     {"leaves", 0, "HOW", CLI_BUILD | CLI_VARY, "in glTF: merged (default), nodes, gpu",
      take_leaves},
+    {"nurbs", 0, "NAME=VALUE", CLI_BUILD, "in .igs and .stp: like circle=nine, join=smooth",
+     take_nurbs},
     {"steps", 0, "N", DRAWING, "steps of an L-system", take_steps},
     {"view", 0, "FILE", DRAWING, "the view (.v) of an L-system", take_view},
     {"print", 0, "WHAT", CLI_DERIVE, "string (default) or count", take_print},
@@ -227,7 +251,8 @@ CliOptions cli_options_new(void) {
                         .sets = g_ptr_array_new_with_free_func(g_free),
                         .seed = -1,
                         .steps = -1,
-                        .limits = fr_limits_default()};
+                        .limits = fr_limits_default(),
+                        .nurbs = fr_nurbs_default()};
 }
 
 void cli_options_clear(CliOptions *options) {

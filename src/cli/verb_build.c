@@ -35,6 +35,7 @@ static FrStatus write_outputs(CliSession *session, const FrScene *scene, FrIoSta
     FrIoOptions io = fr_io_options_default();
     io.leaves = session->options->leaves;
     io.skin.lod = session->options->lod;
+    io.nurbs = session->options->nurbs;
     const GPtrArray *outputs = session->options->outputs;
     for (guint i = 0; i < outputs->len; i++) {
         const char *path = g_ptr_array_index(outputs, i);

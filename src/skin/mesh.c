@@ -5,7 +5,7 @@
 #include <sys/mman.h>
 
 // Arrays are written once from end to end; huge pages spare most of the page faults of that.
-static void *allocate(uint64_t bytes) {
+void *fr_mesh_allocate(uint64_t bytes) {
     const size_t huge = 2 << 20;
     if (bytes < huge) {
         return malloc(bytes > 0 ? bytes : 1);
@@ -24,8 +24,8 @@ FrMesh *fr_mesh_new(uint64_t vertices, uint64_t indices, uint32_t parts) {
     mesh->index_count = indices;
     mesh->part_count = parts;
     mesh->parts = g_new0(FrMeshPart, parts);
-    mesh->vertices = allocate(vertices * sizeof(FrVertex));
-    mesh->indices = allocate(indices * sizeof(uint32_t));
+    mesh->vertices = fr_mesh_allocate(vertices * sizeof(FrVertex));
+    mesh->indices = fr_mesh_allocate(indices * sizeof(uint32_t));
     if (mesh->vertices == NULL || mesh->indices == NULL) {
         fr_mesh_free(mesh);
         return NULL;

@@ -1,6 +1,7 @@
 // Plant → rational surfaces: plan, count, allocate once, write in parallel.
 #include "frond/nurbs_skin.h"
 
+#include "skin/mesh.h"
 #include "skin/nurbs.h"
 #include "skin/organs.h"
 
@@ -101,7 +102,7 @@ static void place_tubes(FrNurbsJob *job) {
         place->point = job->points;
         place->knot = job->knots;
         job->pieces += has_caps ? 3 : 1;
-        job->points += (uint64_t)section->from.count * (place->rows + (has_caps ? 4 : 0));
+        job->points += (uint64_t)section->from.count * (place->rows + (has_caps ? 2 : 0));
         job->knots += place->rows + 4;
     }
     uint32_t count = job->sections.sections->len;
@@ -191,10 +192,10 @@ static FrStatus allocate(FrNurbsJob *job, const char *name) {
     }
     FrNurbsSkin *skin = g_new0(FrNurbsSkin, 1);
     *skin = (FrNurbsSkin){
-        .pieces = g_try_malloc_n(MAX(job->pieces, 1), sizeof *skin->pieces),
+        .pieces = fr_mesh_allocate(job->pieces * sizeof *skin->pieces),
         .count = job->pieces,
-        .knots = g_try_malloc_n(MAX(job->knots, 1), sizeof *skin->knots),
-        .points = g_try_malloc_n(MAX(job->points, 1), sizeof *skin->points),
+        .knots = fr_mesh_allocate(job->knots * sizeof *skin->knots),
+        .points = fr_mesh_allocate(job->points * sizeof *skin->points),
         .knot_count = job->knots,
         .point_count = job->points,
     };
@@ -244,14 +245,12 @@ static void deform(const FrNurbsJob *job, uint32_t scope, double (*points)[4], u
     }
 }
 
-// A cap is ruled from the rim to the middle of the path's end.
+// A cap is ruled from the rim to the middle of the path's end. The row of the middle lies next to
+// the tube's net, whose outermost row is the rim of both.
 static void write_cap(const FrNurbsJob *job, FrNurbsPiece *piece, const FrNurbsPiece *tube,
-                      bool is_tip, const double centre[3], double (*points)[4]) {
+                      bool is_tip, const double centre[3], double (*middle)[4]) {
     uint32_t width = tube->surface.count_u;
-    const double(*rim)[4] =
-        tube->surface.points + (is_tip ? (size_t)(tube->surface.count_v - 1) * width : 0);
-    double(*middle)[4] = points + (is_tip ? width : 0);
-    memcpy(points + (is_tip ? 0 : width), rim, width * sizeof *rim);
+    const double(*rim)[4] = (const double(*)[4])(is_tip ? middle - width : middle + width);
     for (uint32_t i = 0; i < width; i++) {
         memcpy(middle[i], centre, 3 * sizeof(double));
         middle[i][3] = rim[i][3];
@@ -261,7 +260,7 @@ static void write_cap(const FrNurbsJob *job, FrNurbsPiece *piece, const FrNurbsP
     piece->surface.degree_v = 1;
     piece->surface.count_v = 2;
     piece->surface.knots_v = job->skin->knots;
-    piece->surface.points = (const double(*)[4])points;
+    piece->surface.points = is_tip ? rim : (const double(*)[4])middle;
 }
 
 // Where the path of a net begins: with a smooth join not at its first point.
@@ -282,7 +281,9 @@ static void write_tube(const FrNurbsJob *job, uint32_t index, int worker) {
     FrNurbsSkin *skin = job->skin;
     FrNurbsPath *path = &job->paths[worker];
     uint32_t width = section->from.count;
-    double(*net)[4] = skin->points + place->point, *knots = skin->knots + place->knot;
+    bool has_caps = job->params->caps && section->is_closed;
+    double(*all)[4] = skin->points + place->point, *knots = skin->knots + place->knot;
+    double(*net)[4] = has_caps ? all + width : all;
     fr_nurbs_path(path, plan, tube, job->params);
     fr_nurbs_sweep(path, section, plan, job->params, net, knots);
     FrNurbsPiece *piece = &skin->pieces[place->piece];
@@ -299,16 +300,14 @@ static void write_tube(const FrNurbsJob *job, uint32_t index, int worker) {
         .axis = tube->axis,
         .organ = FR_NONE,
     };
-    uint64_t points = (uint64_t)width * place->rows;
-    if (job->params->caps && section->is_closed) {
+    if (has_caps) {
         double centre[3];
         net_begin(path, job->params, centre);
-        write_cap(job, piece + 1, piece, false, centre, net + points);
+        write_cap(job, piece + 1, piece, false, centre, all);
         write_cap(job, piece + 2, piece, true, path->stations[path->count - 1].at,
-                  net + points + 2 * (size_t)width);
-        points += 4 * (uint64_t)width;
+                  net + (size_t)width * place->rows);
     }
-    deform(job, tube->scope, net, points, worker);
+    deform(job, tube->scope, all, (uint64_t)width * (place->rows + (has_caps ? 2 : 0)), worker);
 }
 
 static void write_tubes(void *data, size_t begin, size_t end, int worker) {
@@ -474,36 +473,4 @@ FrStatus fr_nurbs_plant(const FrPlant *plant, const FrNurbsParams *params, const
     job_clear(&job, workers);
     end_deforming(&job, plant, workers);
     return status;
-}
-
-void fr_nurbs_skin_free(FrNurbsSkin *skin) {
-    if (skin != NULL) {
-        g_free(skin->pieces);
-        g_free(skin->knots);
-        g_free(skin->points);
-        g_free(skin);
-    }
-}
-
-uint64_t fr_nurbs_skin_bytes(const FrNurbsSkin *skin) {
-    return skin->count * sizeof *skin->pieces + skin->knot_count * sizeof *skin->knots +
-           skin->point_count * sizeof *skin->points;
-}
-
-FrDigest fr_nurbs_skin_digest(const FrNurbsSkin *skin) {
-    FrDigest digest = fr_digest(0, skin->points, skin->point_count * sizeof *skin->points);
-    digest = fr_digest(digest, skin->knots, skin->knot_count * sizeof *skin->knots);
-    for (uint64_t i = 0; i < skin->count; i++) {
-        const FrNurbsPiece *piece = &skin->pieces[i];
-        const uint32_t numbers[] = {piece->kind,
-                                    piece->material,
-                                    piece->axis,
-                                    piece->organ,
-                                    piece->surface.degree_u,
-                                    piece->surface.degree_v,
-                                    piece->surface.count_u,
-                                    piece->surface.count_v};
-        digest = fr_digest(digest, numbers, sizeof numbers);
-    }
-    return digest;
 }

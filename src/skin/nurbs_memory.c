@@ -1,0 +1,36 @@
+// Rational skins: memory and digest.
+#include "frond/nurbs_skin.h"
+
+#include <stdlib.h>
+
+void fr_nurbs_skin_free(FrNurbsSkin *skin) {
+    if (skin != NULL) {
+        free(skin->pieces);
+        free(skin->knots);
+        free(skin->points);
+        g_free(skin);
+    }
+}
+
+uint64_t fr_nurbs_skin_bytes(const FrNurbsSkin *skin) {
+    return skin->count * sizeof *skin->pieces + skin->knot_count * sizeof *skin->knots +
+           skin->point_count * sizeof *skin->points;
+}
+
+FrDigest fr_nurbs_skin_digest(const FrNurbsSkin *skin) {
+    FrDigest digest = fr_digest(0, skin->points, skin->point_count * sizeof *skin->points);
+    digest = fr_digest(digest, skin->knots, skin->knot_count * sizeof *skin->knots);
+    for (uint64_t i = 0; i < skin->count; i++) {
+        const FrNurbsPiece *piece = &skin->pieces[i];
+        const uint32_t numbers[] = {piece->kind,
+                                    piece->material,
+                                    piece->axis,
+                                    piece->organ,
+                                    piece->surface.degree_u,
+                                    piece->surface.degree_v,
+                                    piece->surface.count_u,
+                                    piece->surface.count_v};
+        digest = fr_digest(digest, numbers, sizeof numbers);
+    }
+    return digest;
+}
