@@ -32,6 +32,7 @@ static inline void bench_keep(const void *data) {
 void bench_plant(void);
 void bench_expr(void);
 void bench_pgraph(void);
+void bench_lsystem(void);
 void bench_skin(void);
 void bench_nurbs(void);
 void bench_io(void);

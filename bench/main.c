@@ -11,7 +11,7 @@ static const struct {
     void (*run)(void);
 } benches[] = {
     {"plant", bench_plant},     {"expr", bench_expr}, {"pgraph", bench_pgraph},
-    {"skin", bench_skin}, {"nurbs", bench_nurbs},
+    {"lsystem", bench_lsystem}, {"skin", bench_skin}, {"nurbs", bench_nurbs},
     {"io", bench_io},
 };
 
@@ -116,7 +116,7 @@ int main(int argc, char **argv) {
     }
     if (unknown != 0) {
         fprintf(stderr,
-                "usage: frond-bench [plant] [expr] [pgraph] [skin] [nurbs] [io] [--json]\n");
+                "usage: frond-bench [plant] [expr] [pgraph] [lsystem] [skin] [nurbs] [io] [--json]\n");
         return 2;
     }
     if (is_json) {
