@@ -12,8 +12,11 @@
 
 #define PI 3.14159265358979323846
 
-// Stretches of the whole length of a stem.
-#define STRETCHES 96.0
+// Stretches of a stem: so many for each of the longest internodes that its fields allow, within
+// bounds.
+#define STRETCHES_PER_STEP 4.0
+#define FEWEST_STRETCHES 16.0
+#define MOST_STRETCHES 1024.0
 // Away from fields a stem turns no faster than this over a stretch.
 #define MOST_AWAY -1.0
 // Shorter vectors have no direction.
@@ -138,7 +141,9 @@ versors fr_field_turn(const FrFields *fields, const FrDraw *what, versors frame,
                       double step) {
     versors whole = {{0, 0, 0, 1}};
     double at[3] = {(double)from.x, (double)from.y, (double)from.z};
-    uint32_t count = (uint32_t)fmax(1, ceil(step * STRETCHES - 1e-9));
+    double stretches = STRETCHES_PER_STEP * what->length / what->finest;
+    stretches = fmax(FEWEST_STRETCHES, fmin(stretches, MOST_STRETCHES));
+    uint32_t count = (uint32_t)fmax(1, ceil(step * stretches - 1e-9));
     double part = step / count;
     for (uint32_t k = 0; k < count; k++) {
         Way way = {0};

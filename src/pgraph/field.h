@@ -28,6 +28,7 @@ typedef struct FrFields {
 typedef struct FrDraw {
     FrTropism tropism; ///< over the stem's length
     double length;     ///< m, of the stem
+    double finest;     ///< m, > 0: the longest internode that its fields allow
 } FrDraw;
 
 /// Gravity, 1 where it is plain, at a point in the plant's coordinates.

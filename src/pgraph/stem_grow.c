@@ -95,7 +95,7 @@ static versors with_fields(const FrStem *stem, const FrPlant *plant, uint32_t ax
     if (!stem->is_in_field) {
         return turned_further(parent, turn, fr_tropism_turn(stem->tropism, frame, step));
     }
-    FrDraw draw = {.tropism = stem->tropism, .length = stem->length};
+    FrDraw draw = {.tropism = stem->tropism, .length = stem->length, .finest = stem->step};
     vec3s from = walk_place(plant, axis, first, k);
     return turned_further(parent, turn, fr_field_turn(fields, &draw, frame, from, step));
 }

@@ -332,6 +332,29 @@ static void threads(void) {
     }
 }
 
+static void extremes(void) {
+    // Whatever functions give, everything stays finite; flat and inside out are no crash.
+    static const char *const kinds[] = {"triangles", "skeleton"};
+    static const char *const maps[] = {"to-x=1e300*x;to-y=-1e300*y", "to-x=x^9;to-z=0",
+                                       "to-x=0;to-y=0;to-z=0", "to-x=exp(1000*z)",
+                                       "strength=-10;to-z=1e12*z;scale=.000001"};
+    for (size_t m = 0; m < G_N_ELEMENTS(maps); m++) {
+        for (int k = 0; k < 2; k++) {
+            char *text = g_strdup_printf("ffd a depth=20;moves=%s;%s\n"
+                                         "ffd b moves=%s;preceding=no;to-x=1e9*x\n" STEM
+                                         "a - a\na . b\nb - stem",
+                                         kinds[k], maps[m], kinds[1 - k]);
+            Built built = build(text);
+            fr_mesh_free(skin(built.plant, NULL, NULL));
+            FrPlant *moved = fr_plant_deformed(built.plant);
+            assert_sound(moved);
+            fr_plant_free(moved);
+            built_free(built);
+            g_free(text);
+        }
+    }
+}
+
 static void no_part_of_paths(void) {
     // Put in or taken out, a deformation leaves all random numbers below as they were.
     const char *parts = "tree stem number=9;gnarl=20\nhorn twig length=.2 ~ .1;gnarl=30\n"
@@ -400,6 +423,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/pgraph/deform/a mirror keeps the outside outside", mirrored);
     g_test_add_func("/pgraph/deform/the digest knows deformations", digests);
     g_test_add_func("/pgraph/deform/any number of threads deforms alike", threads);
+    g_test_add_func("/pgraph/deform/extreme functions leave everything finite", extremes);
     g_test_add_func("/pgraph/deform/a deformation is no part of paths", no_part_of_paths);
     g_test_add_func("/pgraph/deform/too many scopes in one another are refused", too_deep);
     g_test_add_func("/pgraph/deform/wrong points, boxes and functions are errors", wrong_texts);

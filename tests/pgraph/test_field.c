@@ -170,6 +170,29 @@ static void leaves_see_the_field(void) {
     built_free(built);
 }
 
+static void extremes(void) {
+    static const char *const texts[] = {
+        "world w gravity-x=1e300*x;gravity-z=exp(900);light-x=0;light-z=0",
+        "force w kind=point;strength=10000;radius=10000;reach=.00001;solid=yes",
+        "force w kind=vortex;strength=-10000;scale=.000001;solid=yes;radius=100",
+        "force w kind=plane;strength=10000;scale=1000000;radius=5;solid=yes",
+        "force w kind=curve;path=0,0,0 0,0,0;strength=5",
+        "force w kind=direction;direction=0,0,0;falloff=gauss;range=.00001",
+    };
+    for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
+        char *text = g_strdup_printf("%s\nhorn stem length=1000;gravitropism=20;phototropism=-20\n"
+                                     "leaf leaf phototropism=1;gravitropism=1\n"
+                                     "w - stem\nstem - leaf",
+                                     texts[k]);
+        Built built = build(text);
+        for (uint32_t i = 0; i < built.plant->nodes.count; i++) {
+            g_assert_true(isfinite(glms_vec3_norm(built.plant->nodes.position[i])));
+        }
+        built_free(built);
+        g_free(text);
+    }
+}
+
 static void faults(void) {
     Built built = build("world w gravity-x=1/(x - x)\nhorn stem gravitropism=1\nw - stem");
     g_assert_true(built_has(&built, "division-by-zero"));
@@ -207,6 +230,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/pgraph/field/nothing grows into a ball", solid_ball);
     g_test_add_func("/pgraph/field/a stem follows a curve", curve);
     g_test_add_func("/pgraph/field/leaves turn in fields", leaves_see_the_field);
+    g_test_add_func("/pgraph/field/extreme fields leave everything finite", extremes);
     g_test_add_func("/pgraph/field/formulas without value are warnings", faults);
     g_test_add_func("/pgraph/field/any number of threads grows alike", threads);
     return g_test_run();
