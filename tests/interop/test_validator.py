@@ -47,8 +47,12 @@ def broken_is_noticed(folder):
 
 TESTS = [("/interop/validator/a file that is cut off is refused", broken_is_noticed)]
 for example in tap.EXAMPLES:
-    TESTS.append((f"/interop/validator/{example.stem} at full detail is valid",
-                  valid(example, ".glb", "merged", 0)))
+    # The largest examples say at full detail what the chestnut says.
+    lod = 2 if example.stem in ("maple", "willow") else 0
+    TESTS.append((f"/interop/validator/{example.stem} at level of detail {lod} is valid",
+                  valid(example, ".glb", "merged", lod)))
+    if example.stem not in ("chestnut", "figure2", "sunflower"):
+        continue
     for leaves in ("nodes", "gpu"):
         TESTS.append((f"/interop/validator/{example.stem} with leaves as {leaves} is valid",
                       valid(example, ".glb", leaves, 3)))

@@ -18,10 +18,13 @@ def equal_digests(example):
 
 
 def equal_models(example):
+    # Textures take longest; one example with them is enough, the others are written without.
+    extension = ".glb" if example.stem == "figure2" else ".ply"
+
     def test(folder):
         models = []
         for n in THREADS:
-            path = folder / "plant.glb"
+            path = folder / f"plant{extension}"
             tap.run("build", example, "-q", "--lod", 2, "--threads", n, "-o", path)
             models.append(hash(path.read_bytes()))
         same(models)
@@ -52,7 +55,7 @@ TESTS = [(f"/program/threads/{example.stem} has one digest", equal_digests(examp
 TESTS += [(f"/program/threads/the model of {example.stem} has the same bytes", equal_models(example))
           for example in tap.EXAMPLES]
 TESTS += [(f"/program/threads/the picture of {example.stem} has the same bytes", equal_pictures(example))
-          for example in tap.EXAMPLES]
+          for example in tap.EXAMPLES if example.stem in ("agave", "figure2", "sunflower")]
 TESTS += [(f"/program/threads/another seed makes another {example.stem}", seeds_differ(example))
           for example in tap.EXAMPLES if example.stem == "chestnut"]
 
