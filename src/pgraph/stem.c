@@ -10,7 +10,7 @@ enum { MOST_ADAPTIVE = 256, INTERNODES_OF_PROFILE = 8, MOST_BEADS = 1000 };
 enum { INTERNODES_OF_FLARE = 4, MOST_FOR_FLARE = 32 };
 
 // An internode for so many radians of turn, so few that no joint shows, and some for any bend.
-#define BEND_PER_INTERNODE (4.5 * DEGREE)
+#define BEND_PER_INTERNODE (4 * DEGREE)
 #define LEAST_BEND (1 * DEGREE)
 #define LEAST_INTERNODES_OF_BEND 3
 // A gnarl makes so many times its own angle of turn, and shows less of each; never more internodes
