@@ -51,8 +51,11 @@ FrLmatcher fr_lmatcher(const FrLsystem *system, FrLmachine *machine, const FrLun
 
 /// Binds the parameters of one module; false if a literal differs.
 static bool bind(const FrLmatcher *matcher, const FrLpattern *pattern, const uint32_t *module) {
-    const FrLformal *formal = matcher->formals + pattern->formal;
     unsigned count = fr_lhead_count(pattern->key);
+    if (count == 0) {
+        return true;
+    }
+    const FrLformal *formal = matcher->formals + pattern->formal;
     double *variables = matcher->machine->variables;
     for (unsigned i = 0; i < count; i++) {
         float value = fr_lword_float(module[1 + i]);
@@ -250,6 +253,9 @@ void fr_lmatch_produce(const FrLmatcher *matcher, const FrLproduction *productio
     const FrLsystem *system = matcher->machine->system;
     if (production->after != FR_NONE) {
         fr_lmachine_run(matcher->machine, production->after);
+    }
+    if (production->word_count == 0) {
+        return;
     }
     memcpy(out, &g_array_index(system->words, uint32_t, production->words),
            production->word_count * sizeof *out);

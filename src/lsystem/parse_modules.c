@@ -75,9 +75,10 @@ static void read_parameter(FrLparser *parser, uint32_t first_word) {
     parser->barrier = before;
     parser->stack = 0;
     fr_lparse_expression(parser);
-    const FrLcode *first = &g_array_index(code, FrLcode, before);
-    if (code->len == before + 1 && first->op == FR_LOP_CONST) {
-        put_word(parser, fr_lword(first->value));
+    bool is_constant =
+        code->len == before + 1 && g_array_index(code, FrLcode, before).op == FR_LOP_CONST;
+    if (is_constant) {
+        put_word(parser, fr_lword(g_array_index(code, FrLcode, before).value));
         g_array_set_size(code, before);
         g_array_set_size(parser->system->places, before);
     } else {

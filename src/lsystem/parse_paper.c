@@ -38,6 +38,9 @@ static void read_function(FrLparser *parser, char *name) {
 /// Whether a name, formals in brackets and a single '=' stand here.
 static bool is_function(const FrLparser *parser) {
     const char *at = parser->bytes + parser->at;
+    if (!g_ascii_isalpha(*at) && *at != '_') {
+        return false;
+    }
     while (g_ascii_isalnum(*at) || *at == '_') {
         at++;
     }
