@@ -4,11 +4,6 @@
 #include <cglm/struct.h>
 
 #define HALF_TURN 3.14159265358979323846
-// Errors beyond half a turn mean nothing.
-#define LARGEST_ERROR 3.1f
-
-enum { PURPOSE_TURN = 0x76617279 };
-
 /// On the unit circle λ = exp(iw) the characteristic equation reads (λ − 1)(1 + γ/λ) = −K λ^−d:
 /// where the arguments of both sides agree, errors swing for ever with the gain that the moduli
 /// give. This is the argument but for its constant; it rises with w, for its derivative is at least
@@ -55,46 +50,6 @@ FrController fr_controller_of(const FrVaryParams *params) {
                           .innovation = (float)innovation,
                           .start = (float)params->scatter,
                           .delay = delay};
-}
-
-/// A deviate of mean 0 and variance 1 from 64 random bits: the sum of four uniform ones. What is
-/// random in a joint is filtered by the next ones, so no more is needed, and it costs no logarithm.
-static float deviate(uint64_t bits) {
-    int32_t sum = (int32_t)(bits & 0xffff) + (int32_t)(bits >> 16 & 0xffff) +
-                  (int32_t)(bits >> 32 & 0xffff) + (int32_t)(bits >> 48);
-    return (float)(sum - 131070) * 2.6429142e-5f; // √3 / 65536
-}
-
-vec3s fr_control_next(const FrController *controller, FrControl *control, versors frame,
-                      vec3s drive) {
-    uint32_t n = control->joint;
-    vec3s last = control->errors[n % FR_ERRORS];
-    vec3s before = control->errors[(n + FR_ERRORS - 1) % FR_ERRORS];
-    vec3s sensed = control->errors[(n + FR_ERRORS - controller->delay) % FR_ERRORS];
-    float spread = n == 0 ? controller->start : controller->innovation;
-    if (spread > 0) {
-        float u = spread * deviate(fr_random_bits(control->key, PURPOSE_TURN, 2 * n));
-        float v = spread * deviate(fr_random_bits(control->key, PURPOSE_TURN, 2 * n + 1));
-        vec3s left = fr_frame_left(frame), up = fr_frame_up(frame);
-        for (int k = 0; k < 3; k++) {
-            control->random.raw[k] = controller->persistence * control->random.raw[k] +
-                                     (u * left.raw[k] + v * up.raw[k]);
-        }
-    }
-    vec3s e;
-    for (int k = 0; k < 3; k++) {
-        float turn = last.raw[k] - before.raw[k];
-        e.raw[k] =
-            last.raw[k] + ((control->random.raw[k] + drive.raw[k]) -
-                           (controller->gain * sensed.raw[k] + controller->proprioception * turn));
-    }
-    float square = e.x * e.x + (e.y * e.y + e.z * e.z);
-    if (square > LARGEST_ERROR * LARGEST_ERROR) {
-        e = glms_vec3_scale(e, LARGEST_ERROR / sqrtf(square));
-    }
-    control->joint = n + 1;
-    control->errors[(n + 1) % FR_ERRORS] = e;
-    return e;
 }
 
 vec3s fr_turn_between(vec3s from, vec3s to) {

@@ -16,7 +16,11 @@
 
 #include <math.h>
 
+// Errors beyond half a turn mean nothing.
+#define FR_LARGEST_ERROR 3.1f
+
 enum {
+    FR_PURPOSE_TURN = 0x76617279, ///< of random draws
     FR_DELAY_MAX = 8,
     FR_ERRORS = 16, ///< errors remembered, a power of two > FR_DELAY_MAX + 1
 };
@@ -46,10 +50,51 @@ static inline void fr_control_begin(FrControl *control, FrKey key) {
     *control = (FrControl){.key = key};
 }
 
-/// The next joint's error. `frame` is the one it should have, `drive` all that is steady or
-/// foreseen: b − (1 − a) t.
-vec3s fr_control_next(const FrController *controller, FrControl *control, versors frame,
-                      vec3s drive);
+/// A deviate of mean 0 and variance 1 from 32 random bits: the sum of two uniform ones. The joints
+/// that follow filter what is random in one, so no more is needed, and it costs no logarithm.
+static inline float fr_deviate(uint32_t bits) {
+    int32_t sum = (int32_t)(bits & 0xffff) + (int32_t)(bits >> 16);
+    return (float)(sum - 65535) * 3.7376450e-5f; // √6 / 65536
+}
+
+/// Draws the next joint's random turn, across the frame it should have.
+static inline void fr_control_draw(const FrController *controller, FrControl *control,
+                                   versors frame) {
+    float spread = control->joint == 0 ? controller->start : controller->innovation;
+    uint64_t bits = fr_random_bits(control->key, FR_PURPOSE_TURN, control->joint);
+    float u = spread * fr_deviate((uint32_t)bits);
+    float v = spread * fr_deviate((uint32_t)(bits >> 32));
+    vec3s left = fr_frame_left(frame), up = fr_frame_up(frame);
+    for (int k = 0; k < 3; k++) {
+        control->random.raw[k] =
+            controller->persistence * control->random.raw[k] + (u * left.raw[k] + v * up.raw[k]);
+    }
+}
+
+/// The next joint's error, after its random turn was drawn. `drive` is all that is steady or
+/// foreseen: b − (1 − a) t. Inline: it is done once a joint.
+static inline vec3s fr_control_next(const FrController *controller, FrControl *control,
+                                    vec3s drive) {
+    uint32_t n = control->joint;
+    vec3s last = control->errors[n % FR_ERRORS];
+    vec3s before = control->errors[(n + FR_ERRORS - 1) % FR_ERRORS];
+    vec3s sensed = control->errors[(n + FR_ERRORS - controller->delay) % FR_ERRORS];
+    vec3s e;
+    for (int k = 0; k < 3; k++) {
+        float turn = last.raw[k] - before.raw[k];
+        e.raw[k] =
+            last.raw[k] + ((control->random.raw[k] + drive.raw[k]) -
+                           (controller->gain * sensed.raw[k] + controller->proprioception * turn));
+    }
+    float square = e.x * e.x + (e.y * e.y + e.z * e.z);
+    if (square > FR_LARGEST_ERROR * FR_LARGEST_ERROR) {
+        float scale = FR_LARGEST_ERROR / sqrtf(square);
+        e = (vec3s){{scale * e.x, scale * e.y, scale * e.z}};
+    }
+    control->joint = n + 1;
+    control->errors[(n + 1) % FR_ERRORS] = e;
+    return e;
+}
 
 /// The smallest turn between two unit vectors, as a rotation vector; 0 for opposite ones.
 vec3s fr_turn_between(vec3s from, vec3s to);

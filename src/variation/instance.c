@@ -1,5 +1,4 @@
 // Instances: one loop over the branches, from bearers to what they bear.
-#include "plant/frames.h"
 #include "variation/vary.h"
 
 #include <cglm/struct.h>
@@ -18,30 +17,34 @@ static versors between(versors a, versors b) {
     return fr_frame_step((versors){{-a.x, -a.y, -a.z, a.w}}, b);
 }
 
-/// Copies the rotations of an axis.
-static void grow_straight(const Growth *growth, uint32_t first) {
+/// Copies the rotations of an axis. Like grow_controlled() it leaves in `frame` where the
+/// internodes point, for what they bear; positions come last, for the whole plant.
+static void grow_straight(const Growth *growth, uint32_t axis, versors frame) {
     FrNodes *nodes = &growth->instance->nodes;
-    for (uint32_t i = first; i != FR_NONE; i = nodes->next[i]) {
+    for (uint32_t i = growth->instance->axes.first[axis]; i != FR_NONE; i = nodes->next[i]) {
         nodes->rotation[i] = growth->rotation[i];
-        fr_update_frame(nodes, &growth->instance->axes, i);
+        frame = fr_frame_step(frame, growth->rotation[i]);
+        nodes->frame[i] = frame;
     }
 }
 
-/// Grows an axis by the controller. `wanted` is the frame that the joint should have, seen from the
+/// Grows an axis by the controller. `wanted` is the frame that a joint should have, seen from the
 /// first internode as it really stands.
-static void grow_controlled(const Growth *growth, uint32_t axis, vec3s indicator, bool is_pushed) {
+static void grow_controlled(const Growth *growth, uint32_t axis, versors bearer, vec3s indicator) {
     const FrController *controller = &growth->plan->controller;
     FrPlant *plant = growth->instance;
     FrNodes *nodes = &plant->nodes;
+    bool is_pushed = indicator.x != 0 || indicator.y != 0 || indicator.z != 0;
+    bool is_drawn = growth->plan->stroke[axis] != FR_NONE && controller->late > 0;
     uint32_t i = plant->axes.first[axis];
     nodes->rotation[i] = growth->rotation[i];
-    fr_update_frame(nodes, &plant->axes, i);
-    versors wanted = nodes->frame[i];
-    bool is_drawn = growth->plan->stroke[axis] != FR_NONE && controller->late > 0;
+    versors wanted = fr_frame_step(bearer, growth->rotation[i]);
+    versors last = wanted;
+    nodes->frame[i] = wanted;
     FrControl control;
     FrKey path = plant->axes.path[axis];
     fr_control_begin(&control, fr_key_child(growth->key, path != 0 ? path : axis));
-    for (uint32_t last = i; (i = nodes->next[last]) != FR_NONE; last = i) {
+    while ((i = nodes->next[i]) != FR_NONE) {
         vec3s drive = {{0, 0, 0}};
         vec3s before = is_drawn ? fr_frame_heading(wanted) : drive;
         wanted = fr_frame_step(wanted, growth->rotation[i]);
@@ -53,14 +56,19 @@ static void grow_controlled(const Growth *growth, uint32_t axis, vec3s indicator
             vec3s turn = fr_indicator_turn(fr_frame_heading(wanted), indicator);
             drive = glms_vec3_add(drive, glms_vec3_scale(turn, controller->gain));
         }
-        vec3s error = fr_control_next(controller, &control, wanted, drive);
+        if (controller->start > 0) {
+            fr_control_draw(controller, &control, wanted);
+        }
+        vec3s error = fr_control_next(controller, &control, drive);
         versors frame = fr_frame_step(fr_rotation_of(error), wanted);
-        nodes->rotation[i] = between(nodes->frame[last], frame);
-        fr_update_frame(nodes, &plant->axes, i);
+        nodes->rotation[i] = between(last, frame);
+        nodes->frame[i] = frame;
+        last = frame;
     }
 }
 
 static void grow(const Growth *growth) {
+    static const versors ground = {{0, 0, 0, 1}};
     const FrVaryPlan *plan = growth->plan;
     const FrAxes *axes = &growth->instance->axes;
     const FrController *controller = &plan->controller;
@@ -68,15 +76,18 @@ static void grow(const Growth *growth) {
         if (axes->first[a] == FR_NONE) {
             continue;
         }
+        versors bearer =
+            axes->bearer[a] == FR_NONE ? ground : growth->instance->nodes.frame[axes->bearer[a]];
         vec3s indicator = plan->indicator == NULL ? (vec3s){{0, 0, 0}} : plan->indicator[a];
-        bool is_pushed = indicator.x != 0 || indicator.y != 0 || indicator.z != 0;
+        bool is_pushed = glms_vec3_norm2(indicator) > 0;
         bool is_drawn = plan->stroke[a] != FR_NONE && controller->late > 0;
         if (is_pushed || is_drawn || controller->start > 0) {
-            grow_controlled(growth, a, indicator, is_pushed);
+            grow_controlled(growth, a, bearer, indicator);
         } else {
-            grow_straight(growth, axes->first[a]);
+            grow_straight(growth, a, bearer);
         }
     }
+    fr_plant_update_frames(growth->instance, 0);
 }
 
 void fr_vary_into(const FrVaryPlan *plan, uint64_t seed, FrPlant *instance) {
