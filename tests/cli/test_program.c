@@ -59,7 +59,6 @@ static const Command commands[] = {
     {"build $S/examples/figure2.frond --limit instances=11", 3, "", "*[limit-instances]*"},
     {"build $S/examples/figure2.frond --set D.lenght=1", 2, "", "*did you mean 'length'?*"},
     {"build $S/examples/figure2.frond --set D.length=long", 1, "", "*figure2.frond:*length=*^*"},
-    {"build $S/examples/figure2.frond --set D.length=\xff", 2, "", "*not UTF-8*"},
     {"build $S/examples/figure2.frond --set F.length=1", 2, "", "*nothing is called 'F'*"},
     {"check none.frond --diag=json", 1, "", "[*\"severity\":*\"error\"*]\n"},
     {"build $S/examples/figure2.frond -o none/f.glb", 4, "", "*none/f.glb*"},

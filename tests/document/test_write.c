@@ -125,6 +125,7 @@ static void test_bad_set(void) {
         {"trunk.lenght", "1", "unknown-path", "did you mean 'length'?", FR_ERR_USAGE},
         {"root.scale", "1", "ambiguous-path", "'oak.root' and 'elm.root'", FR_ERR_USAGE},
         {"trunk.length", "long", NULL, "", FR_ERR_DOCUMENT},
+        {"trunk.length", "\xff", "encoding", "not UTF-8", FR_ERR_USAGE},
         {"trunk.length", "\x01", "not-well-formed", "", FR_ERR_DOCUMENT},
         {"trunk.material", "brak", NULL, "", FR_ERR_DOCUMENT},
     };
