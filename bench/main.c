@@ -11,8 +11,8 @@ static const struct {
     void (*run)(void);
 } benches[] = {
     {"plant", bench_plant},     {"expr", bench_expr}, {"pgraph", bench_pgraph},
-    {"lsystem", bench_lsystem}, {"skin", bench_skin}, {"nurbs", bench_nurbs},
-    {"io", bench_io},
+    {"lsystem", bench_lsystem}, {"skin", bench_skin}, {"variation", bench_variation},
+    {"nurbs", bench_nurbs},     {"io", bench_io},
 };
 
 static GArray *results; // BenchResult
@@ -115,8 +115,8 @@ int main(int argc, char **argv) {
         }
     }
     if (unknown != 0) {
-        fprintf(stderr,
-                "usage: frond-bench [plant] [expr] [pgraph] [lsystem] [skin] [nurbs] [io] [--json]\n");
+        fprintf(stderr, "usage: frond-bench [plant] [expr] [pgraph] [lsystem] [skin] [variation] "
+                        "[nurbs] [io] [--json]\n");
         return 2;
     }
     if (is_json) {
