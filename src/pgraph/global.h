@@ -25,7 +25,7 @@ static inline FrKey fr_path_key(FrKey place, const FrPrepared *prepared) {
 
 /// What can be wrong with its texts; FR_OK for other kinds.
 FrStatus fr_check_global(const FrPrototype *prototype, FrDiags *diags);
-/// Works out what all its instances share, once it has passed its check.
+/// Works out what all its instances share, once it has passed its check; nothing for other kinds.
 void fr_prepare_global(FrPrepared *made, const FrPrototype *prototype, uint32_t component,
                        FrPlant *plant, GHashTable *faults);
 /// Makes the instance in `row`, whose count has become its index.

@@ -372,13 +372,8 @@ static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t compon
     case FR_COMPONENT_LEAF:
         prepare_leaf(made, graph, prototype, plant, faults);
         break;
-    case FR_COMPONENT_FFD:
-    case FR_COMPONENT_HYPERPATCH:
-    case FR_COMPONENT_WORLD:
-    case FR_COMPONENT_FORCE:
-        fr_prepare_global(made, prototype, component, plant, faults);
-        break;
     default:
+        fr_prepare_global(made, prototype, component, plant, faults);
         break;
     }
 }
