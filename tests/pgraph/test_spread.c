@@ -374,6 +374,30 @@ static void degenerate(void) {
     revo_volume("revo R outline=0,0 0,1 0,1;size=0");
 }
 
+static void same_for_any_threads(void) {
+    FrDigest digest = 0;
+    static const int threads[] = {1, 2, 3, 8};
+    for (size_t k = 0; k < G_N_ELEMENTS(threads); k++) {
+        FrPool *pool = fr_pool_new(threads[k]);
+        Built built = build_graph(
+            graph_read(
+                "scatter S number=40\nvariation V weights=3 2 1\nhydra H number=5 ~ 2;tilt=0 ~ 9\n"
+                "wreath W number=3;rings=2\nphyllotaxis P number=9;form=cone;push=0 ~ .01\n"
+                "tree T crown=flame;break-chance=.3;flare=1;whorl=1..3;sweep=90\n"
+                "revo R size=.1\nleaf L scale=1 ~ .2 | parent dome\n"
+                "S - V\nV - H\nV - W\nV - P\nH - T\nW - T\nP - R\nT = L\nT - L"),
+            pool);
+        g_assert_cmpint(built.status, ==, FR_OK);
+        assert_sound(built.plant);
+        g_assert_cmpuint(built.plant->organs.count, >, 1000);
+        FrDigest now = fr_plant_digest(built.plant);
+        g_assert_true(k == 0 || now == digest);
+        digest = now;
+        built_free(built);
+        fr_pool_free(pool);
+    }
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
 #define TEST(name, function) g_test_add_func("/pgraph/" name, function)
@@ -395,6 +419,7 @@ int main(int argc, char **argv) {
     TEST("a variation rolls nothing anew", variation_rolls_nothing_anew);
     TEST("what a variation chooses goes on like it", variation_goes_on_in_the_tube);
     TEST("wrong weights are errors", variation_with_wrong_weights);
+    TEST("spread plants are the same for any number of threads", same_for_any_threads);
     TEST("multipliers count before they make", limits);
     TEST("empty outlines and radii make no harm", degenerate);
     return g_test_run();
