@@ -37,8 +37,8 @@ typedef struct FrController {
 
 /// One branch on its way to the tip.
 typedef struct FrControl {
-    vec3s errors[FR_ERRORS]; ///< ring, by joint
-    vec3s random;            ///< ξ
+    vec4s errors[FR_ERRORS]; ///< ring, by joint; of four numbers, to be read as they are written
+    vec4s random;            ///< ξ
     FrKey key;
     uint32_t joint;
 } FrControl;
@@ -65,22 +65,22 @@ static inline void fr_control_draw(const FrController *controller, FrControl *co
     float u = spread * fr_deviate((uint32_t)bits);
     float v = spread * fr_deviate((uint32_t)(bits >> 32));
     vec3s left = fr_frame_left(frame), up = fr_frame_up(frame);
-    for (int k = 0; k < 3; k++) {
-        control->random.raw[k] =
-            controller->persistence * control->random.raw[k] + (u * left.raw[k] + v * up.raw[k]);
+    vec4s turn = {{u * left.x + v * up.x, u * left.y + v * up.y, u * left.z + v * up.z, 0}};
+    for (int k = 0; k < 4; k++) {
+        control->random.raw[k] = controller->persistence * control->random.raw[k] + turn.raw[k];
     }
 }
 
 /// The next joint's error, after its random turn was drawn. `drive` is all that is steady or
 /// foreseen: b − (1 − a) t. Inline: it is done once a joint.
-static inline vec3s fr_control_next(const FrController *controller, FrControl *control,
-                                    vec3s drive) {
+static inline vec4s fr_control_next(const FrController *controller, FrControl *control,
+                                    vec4s drive) {
     uint32_t n = control->joint;
-    vec3s last = control->errors[n % FR_ERRORS];
-    vec3s before = control->errors[(n + FR_ERRORS - 1) % FR_ERRORS];
-    vec3s sensed = control->errors[(n + FR_ERRORS - controller->delay) % FR_ERRORS];
-    vec3s e;
-    for (int k = 0; k < 3; k++) {
+    vec4s last = control->errors[n % FR_ERRORS];
+    vec4s before = control->errors[(n + FR_ERRORS - 1) % FR_ERRORS];
+    vec4s sensed = control->errors[(n + FR_ERRORS - controller->delay) % FR_ERRORS];
+    vec4s e;
+    for (int k = 0; k < 4; k++) {
         float turn = last.raw[k] - before.raw[k];
         e.raw[k] =
             last.raw[k] + ((control->random.raw[k] + drive.raw[k]) -
@@ -89,7 +89,7 @@ static inline vec3s fr_control_next(const FrController *controller, FrControl *c
     float square = e.x * e.x + (e.y * e.y + e.z * e.z);
     if (square > FR_LARGEST_ERROR * FR_LARGEST_ERROR) {
         float scale = FR_LARGEST_ERROR / sqrtf(square);
-        e = (vec3s){{scale * e.x, scale * e.y, scale * e.z}};
+        e = (vec4s){{scale * e.x, scale * e.y, scale * e.z, 0}};
     }
     control->joint = n + 1;
     control->errors[(n + 1) % FR_ERRORS] = e;
@@ -105,7 +105,7 @@ vec3s fr_indicator_turn(vec3s heading, vec3s indicator);
 
 /// The rotation of a rotation vector of at most π. Power series of sin and cos: exact to the last
 /// bits of a float there, and without a root.
-static inline versors fr_rotation_of(vec3s e) {
+static inline versors fr_rotation_of(vec4s e) {
     float x = 0.25f * (e.x * e.x + (e.y * e.y + e.z * e.z));
     float s =
         1 + x * (-1.0f / 6 + x * (1.0f / 120 + x * (-1.0f / 5040 +

@@ -59,7 +59,7 @@ static void grow_controlled(const Growth *growth, uint32_t axis, versors bearer,
         if (controller->start > 0) {
             fr_control_draw(controller, &control, wanted);
         }
-        vec3s error = fr_control_next(controller, &control, drive);
+        vec4s error = fr_control_next(controller, &control, glms_vec4(drive, 0));
         versors frame = fr_frame_step(fr_rotation_of(error), wanted);
         nodes->rotation[i] = between(last, frame);
         nodes->frame[i] = frame;
