@@ -13,6 +13,8 @@
 
 /// How a branch begins where another bears it.
 typedef enum FrNurbsJoin {
+    FR_JOIN_NEAR, ///< its path shares the fork and the direction in which its parent comes there,
+                  ///< from so near that it is inside the parent's wood
     FR_JOIN_TANGENT, ///< its path shares two points with its parent's: one tangent (as published)
     FR_JOIN_SMOOTH,  ///< it shares three and knots are uniform: the same curvature too
 } FrNurbsJoin;
@@ -27,8 +29,8 @@ typedef enum FrNurbsFrames {
 #define FR_NURBS_PARAMS(X)                                                                         \
     X(CHOICE, circle, "triangle", 0, 0, "", "triangle square nine cubic",                          \
       "which exact circle is swept: seven points of a triangle or square, nine points, cubic")     \
-    X(CHOICE, join, "tangent", 0, 0, "", "tangent smooth",                                         \
-      "points a branch shares with its parent: two, or three for one curvature")                   \
+    X(CHOICE, join, "near", 0, 0, "", "near tangent smooth",                                       \
+      "what a branch shares with its parent: the fork, two points, three for one curvature")       \
     X(CHOICE, frames, "minimal", 0, 0, "", "minimal frenet", "how profiles turn along a branch")   \
     X(INTEGER, profile_degree, "3", 1, 3, "", "", "profiles: 1 keeps corners, 3 is smooth")        \
     X(SWITCH, caps, "yes", 0, 1, "", "", "close the ends of tubes")                                \

@@ -33,7 +33,7 @@ static void lay_petiole(GArray *forms, const FrBladeForm *form, const FrNurbsPar
         fr_nurbs_path_add(&path, at, radius, 1.0, FR_NONE);
     }
     FrNurbsParams plain = *params;
-    plain.join = FR_JOIN_TANGENT;
+    plain.join = FR_JOIN_NEAR;
     uint32_t rows = fr_nurbs_rows(&path, &plain);
     if (rows > 0) {
         FrNurbsCurve circle = fr_nurbs_circle((FrNurbsCircle)params->circle);

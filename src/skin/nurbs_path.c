@@ -2,7 +2,8 @@
 //
 // Where a branch bears another, the last points of the bearing one begin the path of the other:
 // both curves then leave the shared points in the same direction, and the branch starts inside its
-// parent. A branch that stands aside of its bearer's tip shares the points moved there.
+// parent. Where internodes are long that is far below the fork, so by default the first point is
+// taken nearer. A branch that stands aside of its bearer's tip shares the points moved there.
 #include "skin/nurbs.h"
 
 #include <string.h>
@@ -10,6 +11,8 @@
 // A ring thinner than this, or than this share of the branch, is no ring to a CAD program.
 #define THINNEST 2e-5
 #define THINNEST_SHARE 0.02
+// Radii of the parent from the fork to where a branch begins.
+#define NEAREST 2.0
 
 static FrNurbsStation *append(FrNurbsPath *path) {
     if (path->count == path->room) {
@@ -59,7 +62,7 @@ static void base_of(const FrPlan *plan, uint32_t node, double at[3]) {
 
 // The points before the origin of a branch on `bearer`: one or two of its parent's.
 static void add_shared(FrNurbsPath *path, const FrPlan *plan, uint32_t bearer,
-                       const double origin[3], double radius, bool is_smooth) {
+                       const double origin[3], double radius, FrNurbsJoin join) {
     const FrNodes *nodes = &plan->plant->nodes;
     double tip[3], base[3], before[3], way[3], aside[3];
     to_double(nodes->position[bearer], tip);
@@ -74,26 +77,42 @@ static void add_shared(FrNurbsPath *path, const FrPlan *plan, uint32_t bearer,
         aside[k] = origin[k] - tip[k];
         before[k] = has_before ? before[k] : 2.0 * base[k] - tip[k];
     }
-    double squared = fr_dot3(way, way), moved = fr_dot3(aside, aside);
+    double squared = fr_dot3(way, way);
     if (!(squared > 1e-12)) {
         return;
     }
     // A branch that begins further down shares only as much of the internode as is below it.
-    double part = moved > 1e-16 ? 1.0 + fr_dot3(aside, way) / squared : 1.0;
-    part = fmin(fmax(part, 0.1), 1.0);
-    double flatness = (double)nodes->flatness[bearer];
-    if (is_smooth) {
-        double first[3];
-        for (int k = 0; k < 3; k++) {
-            first[k] = origin[k] - part * (tip[k] - before[k]);
-        }
+    double along = fr_dot3(aside, way) / squared, part = fmin(fmax(1.0 + along, 0.1), 1.0);
+    double flatness = (double)nodes->flatness[bearer], first[3], second[3];
+    bool is_near = join == FR_JOIN_NEAR;
+    if (is_near) {
+        double near = NEAREST * fmax((double)nodes->radius[bearer], radius);
+        part = fmin(part, near / sqrt(squared));
+    }
+    for (int k = 0; k < 3; k++) {
+        // Near a fork the first point is in the middle of the wood, whatever is beside it.
+        double from = is_near ? tip[k] + along * way[k] : origin[k];
+        first[k] = from - part * (tip[k] - before[k]);
+        second[k] = from - part * way[k];
+    }
+    if (join == FR_JOIN_SMOOTH) {
         fr_nurbs_path_add(path, first, radius, flatness, bearer);
     }
-    double second[3];
-    for (int k = 0; k < 3; k++) {
-        second[k] = origin[k] - part * way[k];
-    }
     fr_nurbs_path_add(path, second, radius, flatness, bearer);
+}
+
+// A branch that goes on where its bearer ends begins there, without a step, in its direction.
+static void add_onward(FrNurbsPath *path, const FrPlan *plan, uint32_t bearer, uint32_t node,
+                       const double origin[3], double radius) {
+    const FrNodes *nodes = &plan->plant->nodes;
+    double way[3], at[3], flatness = (double)nodes->flatness[node];
+    to_double(fr_frame_heading(nodes->frame[bearer]), way);
+    double step = fmin(radius, (double)nodes->length[node] / 3.0);
+    for (int k = 0; k < 3; k++) {
+        at[k] = origin[k] + step * way[k];
+    }
+    fr_nurbs_path_add(path, origin, radius, flatness, bearer);
+    fr_nurbs_path_add(path, at, radius, flatness, node);
 }
 
 static void thicken(FrNurbsPath *path) {
@@ -121,13 +140,19 @@ void fr_nurbs_path(FrNurbsPath *path, const FrPlan *plan, const FrTube *tube,
                       : tube->start == FR_START_JOINT ? tube->from
                                                       : FR_NONE;
     bool is_smooth = params->join == FR_JOIN_SMOOTH;
-    if (bearer != FR_NONE) {
-        add_shared(path, plan, bearer, at, radius, is_smooth);
+    bool goes_on =
+        tube->start == FR_START_JOINT || (plant->axes.flags[tube->axis] & FR_CONTINUES) != 0;
+    if (bearer != FR_NONE && goes_on && params->join == FR_JOIN_NEAR) {
+        add_onward(path, plan, bearer, tube->first, at, radius);
+    } else {
+        if (bearer != FR_NONE) {
+            add_shared(path, plan, bearer, at, radius, (FrNurbsJoin)params->join);
+        }
+        if (!tube->is_point_sets) {
+            fr_nurbs_path_add(path, at, radius, (double)nodes->flatness[tube->first], tube->first);
+        }
+        path->shared = bearer != FR_NONE && path->count == (is_smooth ? 3 : 2) ? path->count : 0;
     }
-    if (!tube->is_point_sets) {
-        fr_nurbs_path_add(path, at, radius, (double)nodes->flatness[tube->first], tube->first);
-    }
-    path->shared = bearer != FR_NONE && path->count == (is_smooth ? 3 : 2) ? path->count : 0;
     for (uint32_t node = tube->first;; node = fr_plan_next(plan, node)) {
         to_double(nodes->position[node], at);
         fr_nurbs_path_add(path, at, (double)nodes->radius[node], (double)nodes->flatness[node],

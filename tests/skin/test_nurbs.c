@@ -155,6 +155,7 @@ static double angle_between(const double a[3], const double b[3]) {
 static void tangent_join(void) {
     FrPlant *plant = forked();
     FrNurbsParams params = fr_nurbs_default();
+    params.join = FR_JOIN_TANGENT;
     FrNurbsSkin *skin = skinned(plant, &params);
     g_assert_cmpuint(skin->count, ==, 6);
     FrNurbsCurve path = path_of(&skin->pieces[3].surface);
@@ -176,6 +177,29 @@ static void tangent_join(void) {
     fr_plant_free(plant);
 }
 
+// By default a branch begins two radii before the fork.
+static void near_join(void) {
+    FrPlant *plant = forked();
+    FrNurbsParams params = fr_nurbs_default();
+    FrNurbsSkin *skin = skinned(plant, &params);
+    FrNurbsCurve path = path_of(&skin->pieces[3].surface);
+    double at[3], way[3], internode[3], off[3];
+    fr_nurbs_curve_at(&path, 0, at, way);
+    for (int k = 0; k < 3; k++) {
+        double base = (double)plant->nodes.position[1].raw[k];
+        double tip = (double)plant->nodes.position[2].raw[k];
+        internode[k] = tip - base;
+        off[k] = tip - at[k];
+    }
+    g_assert_cmpfloat(angle_between(way, internode), <, 1e-6);
+    g_assert_cmpfloat(angle_between(off, internode), <, 1e-6);
+    double length = sqrt(off[0] * off[0] + off[1] * off[1] + off[2] * off[2]);
+    g_assert_cmpfloat_with_epsilon(length, 2 * 0.05, 1e-6);
+    fr_nurbs_curve_clear(&path);
+    fr_nurbs_skin_free(skin);
+    fr_plant_free(plant);
+}
+
 // Where a smooth branch begins it has the place, tangent and curvature of its parent's path.
 static void smooth_join(void) {
     FrPlant *plant = forked();
@@ -184,7 +208,7 @@ static void smooth_join(void) {
     FrNurbsSkin *skin = skinned(plant, &params);
     FrNurbsCurve parent = path_of(&skin->pieces[0].surface);
     FrNurbsCurve branch = path_of(&skin->pieces[3].surface);
-    double range[2], nearest = INFINITY, begin[3], way[3], found = 0;
+    double range[2], nearest = INFINITY, begin[3], way[3], found;
     fr_nurbs_range(parent.knots, 3, parent.count, range);
     fr_nurbs_curve_at(&branch, 0, begin, way);
     // One internode is one piece of the parent's uniform knots: the node is at 2 of 5.
@@ -458,7 +482,7 @@ static void degenerate(void) {
     axis = fr_plant_add_axis(plant, 2, (vec3s){{0, 0, 0}}, NAN);
     fr_plant_add_node(plant, axis, about_x(180), 1, NAN);
     fr_plant_add_node(plant, axis, about_x(180), 1, 1e-9F);
-    for (int join = 0; join < 2; join++) {
+    for (int join = 0; join < 3; join++) {
         FrNurbsParams params = fr_nurbs_default();
         params.join = join;
         FrNurbsSkin *skin = skinned(plant, &params);
@@ -474,6 +498,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/nurbs/caps share the rims of their tube", caps_close);
     g_test_add_func("/skin/nurbs/joints turn by the weights of equation 1", joints);
     g_test_add_func("/skin/nurbs/a branch leaves along its parent's internode", tangent_join);
+    g_test_add_func("/skin/nurbs/a branch begins near the fork it leaves", near_join);
     g_test_add_func("/skin/nurbs/a smooth branch has its parent's curvature", smooth_join);
     g_test_add_func("/skin/nurbs/minimal frames never twist and Frenet frames flip", twisting);
     g_test_add_func("/skin/nurbs/a profile turns from circle to star", changing_profile);
