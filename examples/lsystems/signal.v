@@ -1,0 +1,2 @@
+initial line width: 0.12 s
+line style: cylinder
