@@ -194,8 +194,22 @@ static FrStatus write_gltf(FrGltf *gltf, const char *path, uint64_t *bytes) {
     return status;
 }
 
-static FrStatus write_asset(const FrScene *scene, const char *path, const FrIoOptions *options,
+/// The options of a scene: where plants are deformed no two leaves need be alike, so all are
+/// written into the meshes.
+static FrIoOptions options_for(const FrScene *scene, const FrIoOptions *options) {
+    FrIoOptions own = *options;
+    for (guint p = 0; p < scene->plants->len; p++) {
+        if (fr_io_plant(scene, p)->deformers->len > 0) {
+            own.leaves = FR_LEAVES_MERGED;
+        }
+    }
+    return own;
+}
+
+static FrStatus write_asset(const FrScene *scene, const char *path, const FrIoOptions *wanted,
                             bool is_binary, const FrContext *context, FrIoStats *stats) {
+    FrIoOptions own = options_for(scene, wanted);
+    const FrIoOptions *options = &own;
     FrSkinParams skin = options->skin;
     skin.foliage = skin.foliage && options->leaves == FR_LEAVES_MERGED;
     FrIoMeshes meshes;

@@ -13,7 +13,7 @@ static const FrDeformation *deformation_of(const FrScopes *scopes, const FrDefor
     return &g_array_index(scopes->plant->deformations, FrDeformation, scope->deformation);
 }
 
-static FrStand made_stand(const FrPlant *plant, const FrDeformer *scope) {
+static FrFooting made_stand(const FrPlant *plant, const FrDeformer *scope) {
     vec3s at = scope->offset;
     versors rotation = scope->rotation;
     if (scope->node != FR_NONE) {
@@ -23,7 +23,7 @@ static FrStand made_stand(const FrPlant *plant, const FrDeformer *scope) {
         at = (vec3s){{tip.x + at.x, tip.y + at.y, tip.z + at.z}};
         rotation = fr_frame_step(frame, rotation);
     }
-    FrStand stand = {.at = {(double)at.x, (double)at.y, (double)at.z}};
+    FrFooting stand = {.at = {(double)at.x, (double)at.y, (double)at.z}};
     fr_deform_matrix(rotation, stand.axes);
     return stand;
 }
@@ -34,7 +34,7 @@ FrScopes *fr_scopes_new(const FrPlant *plant) {
     }
     FrScopes *scopes = g_new(FrScopes, 1);
     *scopes = (FrScopes){.plant = plant,
-                         .stands = g_new0(FrScopeStand, plant->deformers->len),
+                         .stands = g_new0(FrScopeFooting, plant->deformers->len),
                          .has_triangles = g_new(bool, plant->deformers->len)};
     for (uint32_t s = 0; s < plant->deformers->len; s++) {
         const FrDeformer *scope = scope_at(scopes, s);
@@ -64,7 +64,7 @@ FrFlow fr_flow_at(const double at[3]) {
 }
 
 // Moves the flow as a rigid body from one stand to another.
-static void carry_flow(FrFlow *flow, const FrStand *from, const FrStand *to) {
+static void carry_flow(FrFlow *flow, const FrFooting *from, const FrFooting *to) {
     double back[3][3], turn[3][3], way[3];
     for (int r = 0; r < 3; r++) {
         way[r] = flow->at[r] - from->at[r];
@@ -85,7 +85,7 @@ bool fr_scopes_pass(const FrScopes *scopes, uint32_t scope, uint32_t end, FrDefo
     for (uint32_t s = scope; s != FR_NONE && s != end;) {
         const FrDeformer *deformer = scope_at(scopes, s);
         const FrDeformation *deformation = deformation_of(scopes, deformer);
-        const FrScopeStand *stand = &scopes->stands[s];
+        const FrScopeFooting *stand = &scopes->stands[s];
         if (deformation->is_skeleton == is_skeleton) {
             FrDeformNote *note = notes != NULL ? &notes[deformer->deformation] : NULL;
             fr_deform_map(scopes->plant, deformer, is_skeleton ? &stand->made : &stand->moved, flow,
@@ -103,7 +103,7 @@ bool fr_scopes_pass(const FrScopes *scopes, uint32_t scope, uint32_t end, FrDefo
 }
 
 void fr_scopes_carry(FrScopes *scopes, uint32_t scope) {
-    FrScopeStand *stand = &scopes->stands[scope];
+    FrScopeFooting *stand = &scopes->stands[scope];
     FrFlow flow = fr_flow_at(stand->moved.at);
     uint32_t outer = scope_at(scopes, scope)->outer;
     fr_scopes_pass(scopes, outer, FR_NONE, FR_LEVEL_TRIANGLES, &flow, NULL);

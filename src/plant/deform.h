@@ -22,23 +22,23 @@ typedef struct FrDeformNote {
 } FrDeformNote;
 
 /// A place and a rotation (columns are its axes) in the plant's coordinates.
-typedef struct FrStand {
+typedef struct FrFooting {
     double at[3];
     double axes[3][3];
-} FrStand;
+} FrFooting;
 
 /// Where a scope stands: as it was made, and moved with the skeleton around it.
-typedef struct FrScopeStand {
-    FrStand made, moved;
-    FrStand carried; ///< `moved` taken through the triangle scopes around it: for cuts
-    bool is_known;   ///< the latter two
-} FrScopeStand;
+typedef struct FrScopeFooting {
+    FrFooting made, moved;
+    FrFooting carried; ///< `moved` taken through the triangle scopes around it: for cuts
+    bool is_known;     ///< the latter two
+} FrScopeFooting;
 
 typedef struct FrScopes {
     const FrPlant *plant;
-    FrScopeStand *stands; ///< by scope
-    bool *has_triangles;  ///< by scope: the level of triangles moves what is in it
-    bool has_skeleton;    ///< any scope deforms the skeleton
+    FrScopeFooting *stands; ///< by scope
+    bool *has_triangles;    ///< by scope: the level of triangles moves what is in it
+    bool has_skeleton;      ///< any scope deforms the skeleton
 } FrScopes;
 
 typedef enum FrDeformLevel { FR_LEVEL_SKELETON, FR_LEVEL_TRIANGLES } FrDeformLevel;
@@ -46,7 +46,7 @@ typedef enum FrDeformLevel { FR_LEVEL_SKELETON, FR_LEVEL_TRIANGLES } FrDeformLev
 // ---- deform_map.c: one deformation -------------------------------------------------------------
 
 /// Moves `at`, in the plant's coordinates, by the deformation of one scope that stands at `stand`.
-void fr_deform_map(const FrPlant *plant, const FrDeformer *scope, const FrStand *stand,
+void fr_deform_map(const FrPlant *plant, const FrDeformer *scope, const FrFooting *stand,
                    FrFlow *flow, FrDeformNote *note);
 /// The rotation nearest to `matrix` (Higham 1986). False if there is none, as it flattens space
 /// or turns it inside out; then `rotation` is the identity.

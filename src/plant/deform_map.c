@@ -185,7 +185,7 @@ static void eval_local(const FrDeformation *deformation, double amount, const do
     }
 }
 
-void fr_deform_map(const FrPlant *plant, const FrDeformer *scope, const FrStand *stand,
+void fr_deform_map(const FrPlant *plant, const FrDeformer *scope, const FrFooting *stand,
                    FrFlow *flow, FrDeformNote *note) {
     const FrDeformation *deformation =
         &g_array_index(plant->deformations, FrDeformation, scope->deformation);

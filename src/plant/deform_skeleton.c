@@ -47,12 +47,12 @@ static versors conjugate(versors q) {
 }
 
 // Where something goes that stands on `node` and is in `scope`.
-static FrStand attach(const Mover *mover, uint32_t node, uint32_t scope, const FrStand *made) {
+static FrFooting attach(const Mover *mover, uint32_t node, uint32_t scope, const FrFooting *made) {
     const FrNodes *from = &mover->plant->nodes, *to = &mover->copy->nodes;
     FrFlow flow = fr_flow_at(made->at);
     bool follows = fr_scopes_pass(mover->scopes, scope, scope_of_node(mover->plant, node),
                                   FR_LEVEL_SKELETON, &flow, mover->notes);
-    FrStand stand;
+    FrFooting stand;
     double rotation[3][3];
     flow_rotation(mover, scope, &flow, rotation);
     fr_deform_product((const double(*)[3])rotation, made->axes, stand.axes);
@@ -93,7 +93,7 @@ static void resolve(const Mover *mover, uint32_t scope) {
     }
 }
 
-static vec3s point_of(const FrStand *stand) {
+static vec3s point_of(const FrFooting *stand) {
     return (vec3s){{(float)stand->at[0], (float)stand->at[1], (float)stand->at[2]}};
 }
 
@@ -106,10 +106,10 @@ static void move_axis(const Mover *mover, uint32_t axis) {
     if (!is_touched(mover, scope) && !is_touched(mover, scope_of_node(plant, bearer))) {
         return;
     }
-    FrStand made;
+    FrFooting made;
     doubles(fr_plant_axis_origin(plant, axis), made.at);
     fr_deform_matrix(GLMS_QUAT_IDENTITY, made.axes);
-    FrStand stand = attach(mover, bearer, scope, &made);
+    FrFooting stand = attach(mover, bearer, scope, &made);
     FrFlow exact = fr_flow_at(made.at);
     fr_scopes_pass(mover->scopes, scope, FR_NONE, FR_LEVEL_SKELETON, &exact, NULL);
     for (int k = 0; k < 3; k++) {
@@ -170,11 +170,11 @@ static void move_organ(const Mover *mover, uint32_t organ) {
     }
     vec3s at;
     versors rotation;
-    FrStand made;
+    FrFooting made;
     fr_plant_organ_pose(plant, organ, &at, &rotation);
     doubles(at, made.at);
     fr_deform_matrix(rotation, made.axes);
-    FrStand stand = attach(mover, node, scope, &made);
+    FrFooting stand = attach(mover, node, scope, &made);
     at = point_of(&stand);
     rotation = fr_deform_quaternion((const double(*)[3])stand.axes);
     if (node != FR_NONE) {
@@ -192,7 +192,7 @@ static void settle_copy(const Mover *mover) {
     for (uint32_t s = 0; s < copy->deformers->len; s++) {
         resolve(mover, s);
         FrDeformer *deformer = &g_array_index(copy->deformers, FrDeformer, s);
-        const FrStand *moved = &mover->scopes->stands[s].moved;
+        const FrFooting *moved = &mover->scopes->stands[s].moved;
         deformer->offset = point_of(moved);
         deformer->rotation = fr_deform_quaternion(moved->axes);
         if (deformer->node != FR_NONE) {

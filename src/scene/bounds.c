@@ -1,6 +1,8 @@
 /// The smallest box around a scene: nodes with their radii, organs as balls around their bases.
 #include "frond/scene.h"
 
+#include "plant/deform.h"
+
 #include <cglm/struct.h>
 #include <math.h>
 
@@ -22,13 +24,32 @@ static float reach_of(const FrShape *shape) {
     return glms_vec3_norm(half);
 }
 
-static Box plant_box(const FrPlant *plant) {
-    Box box;
-    fr_plant_bounds(plant, &box.min, &box.max);
+/// Where deformations of triangles take a point.
+static vec3s deformed(const FrScopes *scopes, uint32_t scope, vec3s at) {
+    if (scopes != NULL && scope != FR_NONE && scopes->has_triangles[scope]) {
+        vec3s side = {{0, 0, 1}};
+        fr_scopes_move_vertex(scopes, scope, &at, &side, NULL);
+    }
+    return at;
+}
+
+static Box posed_box(const FrPlant *plant, const FrScopes *scopes) {
+    Box box = {{{INFINITY, INFINITY, INFINITY}}, {{-INFINITY, -INFINITY, -INFINITY}}};
+    if (scopes == NULL) {
+        fr_plant_bounds(plant, &box.min, &box.max);
+    }
     const uint16_t unseen = FR_SHED | FR_HIDDEN;
     for (uint32_t i = 0; i < plant->nodes.count; i++) {
         if ((plant->nodes.flags[i] & unseen) == 0) {
-            add_ball(&box, plant->nodes.position[i], plant->nodes.radius[i]);
+            uint32_t scope = plant->axes.deformer[plant->nodes.axis[i]];
+            vec3s tip = deformed(scopes, scope, plant->nodes.position[i]);
+            add_ball(&box, tip, plant->nodes.radius[i]);
+        }
+    }
+    for (uint32_t i = 0; i < plant->axes.count && scopes != NULL; i++) {
+        if ((plant->axes.flags[i] & unseen) == 0) {
+            vec3s origin = fr_plant_axis_origin(plant, i);
+            add_ball(&box, deformed(scopes, plant->axes.deformer[i], origin), 0);
         }
     }
     for (uint32_t i = 0; i < plant->organs.count; i++) {
@@ -39,9 +60,22 @@ static Box plant_box(const FrPlant *plant) {
         vec3s position;
         versors rotation;
         fr_plant_organ_pose(plant, i, &position, &rotation);
-        add_ball(&box, position,
+        add_ball(&box, deformed(scopes, plant->organs.deformer[i], position),
                  plant->organs.scale[i] * reach_of(&g_array_index(plant->shapes, FrShape, shape)));
     }
+    return box;
+}
+
+static Box plant_box(const FrPlant *plant) {
+    FrScopes *scopes = fr_scopes_new(plant);
+    if (scopes == NULL) {
+        return posed_box(plant, NULL);
+    }
+    FrPlant *moved = scopes->has_skeleton ? fr_scopes_move_skeleton(scopes, NULL) : NULL;
+    fr_scopes_settle(scopes);
+    Box box = posed_box(moved != NULL ? moved : plant, scopes);
+    fr_plant_free(moved);
+    fr_scopes_free(scopes);
     return box;
 }
 
