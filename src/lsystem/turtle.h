@@ -75,6 +75,12 @@ bool fr_lturtle_take(FrLturtle *turtle, const uint32_t *module, uint64_t origin)
 void fr_lturtle_close_segment(FrLturtle *turtle);
 /// `@` and what follows.
 void fr_lturtle_at(FrLturtle *turtle, char symbol, const uint32_t *module);
+/// The third letter of @Gs, @Ts, @Di, @bo and the like.
+void fr_lturtle_qualified(FrLturtle *turtle, char symbol, const uint32_t *module);
+/// Control points of a generalized cylinder: @Gs, @Gc, @Ge, @Gt.
+void fr_lturtle_control(FrLturtle *turtle, char symbol, const uint32_t *module);
+/// Rolls until left is horizontal.
+void fr_lturtle_level(FrLpose *pose);
 /// The k-th parameter, or a default.
 static inline double fr_lturtle_value(const uint32_t *module, unsigned k, double otherwise) {
     return k < fr_lhead_count(*module) ? (double)fr_lword_float(module[1 + k]) : otherwise;

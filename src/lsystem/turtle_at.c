@@ -1,0 +1,151 @@
+// Symbols of two and three letters that begin with `@`.
+#include "lsystem/build.h"
+
+#include <math.h>
+
+/// Roll until left is horizontal.
+void fr_lturtle_level(FrLpose *pose) {
+    static const double vertical[3] = {0, 1, 0};
+    double left[3];
+    fr_lvector_cross(vertical, pose->heading, left);
+    if (fr_lvector_dot(left, left) < 1e-20) {
+        return;
+    }
+    fr_lvector_unit(left);
+    memcpy(pose->left, left, sizeof left);
+    fr_lvector_cross(pose->left, pose->heading, pose->up);
+}
+
+static void set_heading(FrLpose *pose, const uint32_t *module) {
+    double heading[3], up[3];
+    for (unsigned k = 0; k < 3; k++) {
+        heading[k] = fr_lturtle_value(module, k, 0);
+        up[k] = fr_lturtle_value(module, 3 + k, 0);
+    }
+    double length = fr_lvector_dot(heading, heading);
+    if (!(length > 0) || !isfinite(length)) {
+        memcpy(heading, (double[3]){0, 1, 0}, sizeof heading);
+    }
+    fr_lvector_unit(heading);
+    fr_lvector_unit(up);
+    memcpy(pose->heading, heading, sizeof heading);
+    if (fr_lhead_count(*module) >= 6 && fabs(fr_lvector_dot(heading, up)) < 1e-6 &&
+        fr_lvector_dot(up, up) > 0.5) {
+        memcpy(pose->up, up, sizeof up);
+        fr_lvector_cross(pose->heading, pose->up, pose->left);
+    } else {
+        fr_lturtle_untwist(pose);
+    }
+}
+
+static void set_elasticity(FrLturtle *turtle, char symbol, const uint32_t *module) {
+    FrLpose *pose = &turtle->pose;
+    if (symbol == 'p') {
+        fr_lturtle_untwist(pose);
+        return;
+    }
+    if (symbol == 'f') {
+        memcpy(pose->last_heading, pose->heading, sizeof pose->last_heading);
+        memcpy(pose->last_up, pose->up, sizeof pose->last_up);
+        return;
+    }
+    double id = fr_lturtle_value(module, 0, 1);
+    if (!(id >= 1 && id <= MIN(turtle->view->tropisms->len, FR_LTROPISMS))) {
+        return;
+    }
+    unsigned i = (unsigned)id - 1;
+    double step = g_array_index(turtle->view->tropisms, FrLtropism, i).step;
+    double value = fr_lturtle_value(module, 1, symbol == 's' ? 0 : step);
+    pose->elasticities[i] = symbol == 's'   ? value
+                            : symbol == 'd' ? pose->elasticities[i] - value
+                                            : pose->elasticities[i] + value;
+}
+
+static void set_scale(FrLturtle *turtle, char symbol, const uint32_t *module) {
+    double value = fr_lturtle_value(module, 0, turtle->view->scale_step);
+    double scale = symbol == 'i'   ? turtle->pose.scale * value
+                   : symbol == 'd' ? turtle->pose.scale / value
+                                   : value;
+    if (isfinite(scale) && scale != 0) {
+        turtle->pose.scale = scale;
+    }
+}
+
+static void draw_ball(FrLturtle *turtle, char symbol, const uint32_t *module) {
+    const FrLpose *pose = &turtle->pose;
+    bool is_given = fr_lhead_count(*module) > 0;
+    double diameter = is_given ? fr_lturtle_value(module, 0, 1) * pose->scale : pose->width;
+    if (turtle->builder == NULL) {
+        return;
+    }
+    if (symbol == 'O') {
+        fr_lbuilder_sphere(turtle->builder, pose, diameter);
+    } else {
+        fr_lbuilder_disc(turtle->builder, pose, diameter);
+    }
+    turtle->status = MAX(turtle->status, turtle->builder->status);
+}
+
+/// Letters that take a second one: @Gs, @Ts, @Di, @bo, @PS, @mc.
+static bool takes_another(char symbol) {
+    return strchr("GTDbPm", symbol) != NULL;
+}
+
+void fr_lturtle_qualified(FrLturtle *turtle, char symbol, const uint32_t *module) {
+    char qualifier = turtle->qualifier;
+    turtle->qualifier = 0;
+    turtle->prefix = 0;
+    if (qualifier == 'G') {
+        fr_lturtle_control(turtle, symbol, module);
+    } else if (qualifier == 'T') {
+        set_elasticity(turtle, symbol, module);
+    } else if (qualifier == 'D') {
+        set_scale(turtle, symbol, module);
+    } else if (qualifier == 'b') {
+        draw_ball(turtle, symbol, module);
+    }
+}
+
+void fr_lturtle_at(FrLturtle *turtle, char symbol, const uint32_t *module) {
+    FrLpose *pose = &turtle->pose;
+    bool has_value = fr_lhead_count(*module) > 0;
+    if (takes_another(symbol) && !has_value) {
+        turtle->qualifier = symbol;
+        return;
+    }
+    turtle->prefix = 0;
+    switch (symbol) {
+    case 'v':
+        fr_lturtle_level(pose);
+        break;
+    case 'R':
+        set_heading(pose, module);
+        break;
+    case 'M':
+        for (unsigned k = 0; k < 3; k++) {
+            double value = fr_lturtle_value(module, k, 0);
+            pose->position[k] = isfinite(value) ? CLAMP(value, -1e12, 1e12) : 0;
+        }
+        pose->is_at_tip = false;
+        break;
+    case 'D':
+        set_scale(turtle, 's', module);
+        break;
+    case 'T':
+        set_elasticity(turtle, 'i', module);
+        break;
+    case '#':
+        pose->contour = (int32_t)CLAMP(fr_lturtle_value(module, 0, 0), 0, 1e6);
+        break;
+    case '!':
+        pose->sides = (uint32_t)CLAMP(fr_lturtle_value(module, 0, 8), 3, 128);
+        break;
+    case 'O':
+    case 'o':
+    case 'c':
+        draw_ball(turtle, symbol, module);
+        break;
+    default:
+        break;
+    }
+}
