@@ -44,7 +44,7 @@ FR_API FR_MUST_USE FrStatus fr_scene_collect(const FrDocument *document,
                                              const FrPlantDef *definition, int64_t seed,
                                              uint32_t count, const FrContext *context,
                                              FrScene **scene);
-/// A scene of one of another's plants alone, at the origin. It borrows the plant.
+/// A scene of one plant of a collection alone, at the origin, with its seed. It borrows the plant.
 FR_API FrScene *fr_scene_single(const FrScene *scene, uint32_t plant);
 FR_API void fr_scene_free(FrScene *scene);
 FR_API FrDigest fr_scene_digest(const FrScene *scene);

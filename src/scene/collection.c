@@ -86,7 +86,7 @@ FrStatus fr_scene_collect(const FrDocument *document, const FrPlantDef *definiti
 }
 
 FrScene *fr_scene_single(const FrScene *scene, uint32_t plant) {
-    FrScene *single = empty_scene(scene->name, scene->params, scene->seed, NULL);
+    FrScene *single = empty_scene(scene->name, scene->params, scene->seed + plant, NULL);
     g_array_append_val(single->plants, g_array_index(scene->plants, FrScenePlant, plant));
     FrStand stand = {.scale = 1};
     g_array_append_val(single->stands, stand);

@@ -107,14 +107,13 @@ vec3s fr_indicator_turn(vec3s heading, vec3s indicator);
 /// bits of a float there, and without a root.
 static inline versors fr_rotation_of(vec4s e) {
     float x = 0.25f * (e.x * e.x + (e.y * e.y + e.z * e.z));
-    float s =
-        1 + x * (-1.0f / 6 + x * (1.0f / 120 + x * (-1.0f / 5040 +
-                                                    x * (1.0f / 362880 - x * (1.0f / 39916800)))));
+    float square = x * x; // in pairs, so that no term waits for all others
+    float s = (1 - x * (1.0f / 6)) + square * ((1.0f / 120 - x * (1.0f / 5040)) +
+                                               square * (1.0f / 362880 - x * (1.0f / 39916800)));
     float c =
-        1 + x * (-1.0f / 2 +
-                 x * (1.0f / 24 +
-                      x * (-1.0f / 720 +
-                           x * (1.0f / 40320 + x * (-1.0f / 3628800 + x * (1.0f / 479001600))))));
+        (1 - x * (1.0f / 2)) +
+        square * ((1.0f / 24 - x * (1.0f / 720)) +
+                  square * ((1.0f / 40320 - x * (1.0f / 3628800)) + square * (1.0f / 479001600)));
     s *= 0.5f;
     return (versors){{s * e.x, s * e.y, s * e.z, c}};
 }
