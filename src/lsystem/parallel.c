@@ -178,7 +178,7 @@ static void join_marks(Step *step) {
 
 static void open_machines(Step *step, int threads) {
     const FrLmachine *machine = &step->derivation->machine;
-    step->machines = g_new(FrLmachine, threads);
+    step->machines = g_new(FrLmachine, (size_t)threads);
     for (int i = 0; i < threads; i++) {
         step->machines[i] = *machine;
         step->machines[i].variables =
