@@ -125,7 +125,8 @@ static FrStatus surface_add(FrSurfaces *surfaces, FrMaterial *material, bool is_
     }
     if (material != NULL && status == FR_OK) {
         int texture = fr_material_params(material)->texture;
-        surface.has_holes = fr_material_has_alpha(material);
+        // Wood is whole, also where it is painted with a picture cut to the form of a leaf.
+        surface.has_holes = is_foliage && fr_material_has_alpha(material);
         surface.clamps = is_foliage || texture == FR_TEXTURE_LEAF || texture == FR_TEXTURE_PETAL;
     }
     g_array_append_val(surfaces->surfaces, surface);

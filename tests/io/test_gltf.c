@@ -291,6 +291,22 @@ static void leaves_have_their_material(void) {
     remove_folder(folder);
 }
 
+static void wood_is_whole(void) {
+    char *folder = folder_new();
+    FrScene *scene = scene_new();
+    FrPlant *herb = plant_with_leaves("herb", 4, FR_TEXTURE_LEAF, FR_TEXTURE_LEAF);
+    scene_stand(scene, scene_add(scene, herb), 0, 0, 0, 1);
+    write_scene(scene, folder, "a.glb", FR_LEAVES_MERGED);
+    Glb glb = glb_read(folder, "a.glb");
+    json_t *materials = member(glb.json, "materials");
+    g_assert_null(member(json_array_get(materials, 0), "alphaMode"));
+    g_assert_cmpstr(json_string_value(member(json_array_get(materials, 1), "alphaMode")), ==,
+                    "MASK");
+    glb_clear(&glb);
+    fr_scene_free(scene);
+    remove_folder(folder);
+}
+
 static void plain_colours_are_linear(void) {
     char *folder = folder_new();
     FrScene *scene = meadow(1);
@@ -416,6 +432,7 @@ int main(int argc, char **argv) {
                     leaves_stand_alike);
     g_test_add_func("/io/gltf/leaves are masked and double-sided, barks repeat",
                     leaves_have_their_material);
+    g_test_add_func("/io/gltf/a stem painted as a leaf has no holes", wood_is_whole);
     g_test_add_func("/io/gltf/colours are written linear", plain_colours_are_linear);
     g_test_add_func("/io/gltf/a .gltf has the same buffer and its pictures beside it",
                     files_beside);
