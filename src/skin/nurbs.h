@@ -72,7 +72,7 @@ typedef struct FrNurbsPath {
 void fr_nurbs_path(FrNurbsPath *path, const FrPlan *plan, const FrTube *tube,
                    const FrNurbsParams *params);
 void fr_nurbs_path_clear(FrNurbsPath *path);
-/// Appends a point unless it repeats the last one.
+/// Appends a point unless it repeats the last one or is nowhere.
 void fr_nurbs_path_add(FrNurbsPath *path, const double at[3], double radius, double flatness,
                        uint32_t node);
 /// How many rows of control points, and with that row + 4 knots, the path makes; 0 for none.

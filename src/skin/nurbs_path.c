@@ -31,6 +31,9 @@ void fr_nurbs_path_clear(FrNurbsPath *path) {
 
 void fr_nurbs_path_add(FrNurbsPath *path, const double at[3], double radius, double flatness,
                        uint32_t node) {
+    if (!isfinite(at[0] + at[1] + at[2])) {
+        return;
+    }
     if (path->count > 0) {
         FrNurbsStation *last = &path->stations[path->count - 1];
         double step[3] = {at[0] - last->at[0], at[1] - last->at[1], at[2] - last->at[2]};
