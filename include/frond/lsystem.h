@@ -70,7 +70,7 @@ typedef struct FrLquery {
     float *parameters; ///< what the module says; answers are written here
     uint64_t module;   ///< index in the string
     vec3s position, heading, left, up; ///< up as cpfg has it: −(heading × left)
-    float width, scale; ///< of the turtle
+    float width, scale;                ///< of the turtle
 } FrLquery;
 
 /// Who answers open symbols: all of a step in one batch, in the order of the string.

@@ -9,7 +9,7 @@ static FrStatus check_roots(const FrPgraph *graph, const FrRecursions *recursion
                             bool with_warnings) {
     uint32_t count = fr_pgraph_count(graph);
     if (count == 0) {
-        fr_diags_add(diags, FR_ERROR, "no-component", (FrSpan){0}, "the plant “%s” is empty",
+        fr_diags_add(diags, FR_ERROR, "no-component", (FrSpan){0}, "the plant '%s' is empty",
                      graph->name);
         return FR_ERR_DOCUMENT;
     }
@@ -17,7 +17,7 @@ static FrStatus check_roots(const FrPgraph *graph, const FrRecursions *recursion
         uint32_t root = g_array_index(recursions->roots, uint32_t, k);
         if (fr_pgraph_kind(graph, root) == FR_COMPONENT_CAMERA) {
             fr_diags_add(diags, FR_ERROR, "second-camera", fr_pgraph_prototype(graph, root)->span,
-                         "“%s” is a second camera; a plant has one root",
+                         "'%s' is a second camera; a plant has one root",
                          fr_pgraph_id(graph, root));
             return FR_ERR_DOCUMENT;
         }
@@ -26,7 +26,7 @@ static FrStatus check_roots(const FrPgraph *graph, const FrRecursions *recursion
         if (!recursions->is_reached[c]) {
             fr_diags_add(diags, FR_WARNING, "unreachable-component",
                          fr_pgraph_prototype(graph, c)->span,
-                         "no way from the camera leads to “%s”, so it is never made",
+                         "no way from the camera leads to '%s', so it is never made",
                          fr_pgraph_id(graph, c));
         }
     }
@@ -39,7 +39,7 @@ static FrStatus check_recursions(const FrPgraph *graph, const FrRecursions *recu
     if (endless != FR_NONE) {
         const FrPgraphLink *link = fr_pgraph_link_at(graph, endless);
         fr_diags_add(diags, FR_ERROR, "endless-recursion", link->span,
-                     "the link from “%s” to “%s” closes a recursion that never ends; give one of "
+                     "the link from '%s' to '%s' closes a recursion that never ends; give one of "
                      "its components a depth",
                      fr_pgraph_id(graph, link->from), fr_pgraph_id(graph, link->to));
         return FR_ERR_DOCUMENT;
@@ -48,7 +48,7 @@ static FrStatus check_recursions(const FrPgraph *graph, const FrRecursions *recu
         if (fr_pgraph_basic(graph, c)->depth > 1 && !recursions->is_recursive[c]) {
             fr_diags_add(diags, FR_WARNING, "depth-without-recursion",
                          fr_pgraph_prototype(graph, c)->span,
-                         "“%s” has a depth but no link leads back to it, so it is made once",
+                         "'%s' has a depth but no link leads back to it, so it is made once",
                          fr_pgraph_id(graph, c));
         }
     }
@@ -70,7 +70,7 @@ static FrStatus check_own(const FrPgraph *graph, uint32_t component, FrDiags *di
     if (prototype->kind == FR_COMPONENT_REVO &&
         (revo->outline.count < 2 || revo->outline.count > FR_MOST_OUTLINE_POINTS)) {
         fr_diags_add(diags, FR_ERROR, "wrong-outline", prototype->span,
-                     "the outline of “%s” must be two to %d points radius,height", prototype->id,
+                     "the outline of '%s' must be two to %d points radius,height", prototype->id,
                      FR_MOST_OUTLINE_POINTS);
         return FR_ERR_DOCUMENT;
     }

@@ -40,7 +40,7 @@ GArray *fr_weights_new(const FrPgraph *graph, uint32_t component, FrDiags *diags
     g_array_unref(numbers);
     if (!is_right) {
         fr_diags_add(diags, FR_ERROR, "wrong-weights", prototype->span,
-                     "the weights of “%s” must be numbers from 0 to %g, one for each of its %u "
+                     "the weights of '%s' must be numbers from 0 to %g, one for each of its %u "
                      "links, and not all 0",
                      prototype->id, MOST_WEIGHT, weights->len);
         g_array_unref(weights);

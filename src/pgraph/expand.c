@@ -406,7 +406,7 @@ static void report_faults(const FrBuild *build, int workers) {
         const FrPrototype *prototype = fr_pgraph_prototype(expansion->graph, fault->component);
         const FrParam *row = &fr_pgraph_table(prototype->kind)->rows[fault->parameter];
         char *attribute = fr_param_attribute(row);
-        char *what = g_strdup_printf("%s of “%s”", attribute, prototype->id);
+        char *what = g_strdup_printf("%s of '%s'", attribute, prototype->id);
         fr_expr_report_fault(&fault->fault, what, build->context->diags);
         g_free(what);
         g_free(attribute);

@@ -104,7 +104,7 @@ FrStatus fr_flags_parse(FrFlags *flags, const char *text, const char *what, FrSp
     for (char **word = words; *word != NULL && status == FR_OK; word++) {
         if (**word != '\0' && !add_term(flags, *word)) {
             fr_diags_add(diags, FR_ERROR, "wrong-flags", span,
-                         "“%.40s” in the list `only` of “%s” is none of all, odd, even, first, "
+                         "'%.40s' in the list `only` of '%s' is none of all, odd, even, first, "
                          "last, 2, 0..4, %%3=1",
                          *word, what);
             status = FR_ERR_DOCUMENT;

@@ -67,7 +67,7 @@ static FrStatus move_points(FrLattice *lattice, const char *text, const FrProtot
     for (char **word = words; *word != NULL && status == FR_OK; word++) {
         if (**word != '\0' && !move_point(lattice, *word)) {
             fr_diags_add(diags, FR_ERROR, "wrong-points", prototype->span,
-                         "“%.40s” in the points of “%s” is no control point and way like "
+                         "'%.40s' in the points of '%s' is no control point and way like "
                          "0,1,2:0.1,0,0; its indices go up to %u,%u,%u",
                          *word, prototype->id, lattice->degree[0], lattice->degree[1],
                          lattice->degree[2]);
@@ -113,7 +113,7 @@ FrStatus fr_check_global(const FrPrototype *prototype, FrDiags *diags) {
     FrLattice lattice;
     if (!make_lattice(&lattice, prototype->params)) {
         fr_diags_add(diags, FR_ERROR, "flat-box", prototype->span,
-                     "the box of “%s” is flat: box-from and box-to must differ in x, y and z",
+                     "the box of '%s' is flat: box-from and box-to must differ in x, y and z",
                      prototype->id);
         return FR_ERR_DOCUMENT;
     }

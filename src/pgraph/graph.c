@@ -60,7 +60,7 @@ void fr_pgraph_free(FrPgraph *graph) {
 uint32_t fr_pgraph_add(FrPgraph *graph, FrComponentKind kind, const char *id, FrSpan span,
                        FrDiags *diags) {
     if (fr_pgraph_find(graph, id) != FR_NONE) {
-        fr_diags_add(diags, FR_ERROR, "duplicate-id", span, "there is already a component “%s”",
+        fr_diags_add(diags, FR_ERROR, "duplicate-id", span, "there is already a component '%s'",
                      id);
         return FR_NONE;
     }
@@ -105,14 +105,14 @@ FrStatus fr_pgraph_link(FrPgraph *graph, uint32_t from, uint32_t to, FrLinkKind 
     FR_ASSERT(from < fr_pgraph_count(graph) && to < fr_pgraph_count(graph));
     if (fr_pgraph_kind(graph, to) == FR_COMPONENT_CAMERA) {
         fr_diags_add(diags, FR_ERROR, "link-to-camera", span,
-                     "“%s” is a camera: it is the root and follows on nothing",
+                     "'%s' is a camera: it is the root and follows on nothing",
                      fr_pgraph_id(graph, to));
         return FR_ERR_DOCUMENT;
     }
     gint64 key = ((gint64)from << 32 | (gint64)to) * 3 + (gint64)kind;
     if (g_hash_table_contains(graph->link_keys, &key)) {
         fr_diags_add(diags, FR_ERROR, "duplicate-link", span,
-                     "“%s” is already linked to “%s” in this way", fr_pgraph_id(graph, from),
+                     "'%s' is already linked to '%s' in this way", fr_pgraph_id(graph, from),
                      fr_pgraph_id(graph, to));
         return FR_ERR_DOCUMENT;
     }

@@ -85,9 +85,9 @@ FrStatus fr_find_material(const FrPgraph *graph, uint32_t component, uint32_t *m
         g_free(names);
     }
     fr_diags_add(diags, FR_ERROR, "unknown-material", fr_pgraph_prototype(graph, component)->span,
-                 "there is no material “%s” for “%s”%s%s%s", name, fr_pgraph_id(graph, component),
-                 near_name != NULL ? "; is it “" : "", near_name != NULL ? near_name : "",
-                 near_name != NULL ? "”?" : "");
+                 "there is no material '%s' for '%s'%s%s%s", name, fr_pgraph_id(graph, component),
+                 near_name != NULL ? "; is it '" : "", near_name != NULL ? near_name : "",
+                 near_name != NULL ? "'?" : "");
     return FR_ERR_DOCUMENT;
 }
 
@@ -170,7 +170,7 @@ GArray *fr_path_points(const char *path, const FrPrototype *prototype, FrDiags *
     g_strfreev(words);
     if (!is_right || points->len < 2 || points->len > MOST_PATH_INTERNODES) {
         fr_diags_add(diags, FR_ERROR, "wrong-path", prototype->span,
-                     "the path of “%s” must be two to %d points written x,y,z x,y,z", prototype->id,
+                     "the path of '%s' must be two to %d points written x,y,z x,y,z", prototype->id,
                      MOST_PATH_INTERNODES);
         g_array_unref(points);
         return NULL;

@@ -188,14 +188,14 @@ void fr_deform_report(const FrPlant *plant, const FrDeformNote *notes, FrDiags *
                                      : NULL;
         const char *id = who != NULL ? who->id : plant->name;
         if (notes[d].fault.code != NULL) {
-            char *what = g_strdup_printf("to-%c of “%s”", 'x' + notes[d].axis, id);
+            char *what = g_strdup_printf("to-%c of '%s'", 'x' + notes[d].axis, id);
             fr_expr_report_fault(&notes[d].fault, what, diags);
             g_free(what);
         }
         if (notes[d].is_singular) {
             fr_diags_add(diags, FR_WARNING, "singular-deformation",
                          who != NULL ? who->span : (FrSpan){0},
-                         "“%s” flattens what it deforms; normals there stay as they were", id);
+                         "'%s' flattens what it deforms; normals there stay as they were", id);
         }
     }
 }

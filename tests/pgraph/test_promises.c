@@ -226,9 +226,9 @@ static void faults_reported_once(void) {
                                   pool);
         g_assert_cmpint(built.status, ==, FR_OK);
         g_assert_cmpuint(fr_diags_count(built.diags), ==, 3);
-        g_assert_nonnull(strstr(fr_diags_get(built.diags, 0)->text, "branching-angle of “A”"));
-        g_assert_nonnull(strstr(fr_diags_get(built.diags, 1)->text, "phototropism of “L”"));
-        g_assert_nonnull(strstr(fr_diags_get(built.diags, 2)->text, "scale of “L”"));
+        g_assert_nonnull(strstr(fr_diags_get(built.diags, 0)->text, "branching-angle of 'A'"));
+        g_assert_nonnull(strstr(fr_diags_get(built.diags, 1)->text, "phototropism of 'L'"));
+        g_assert_nonnull(strstr(fr_diags_get(built.diags, 2)->text, "scale of 'L'"));
         built_free(built);
         fr_pool_free(pool);
     }
