@@ -17,13 +17,55 @@ bool fr_organ_is_drawn(const FrPlan *plan, uint32_t organ) {
            (node == FR_NONE || (plan->marks[node] & FR_NODE_GONE) == 0);
 }
 
+static FrLeafGroup *group_of(const FrOrganPlan *organs, uint32_t organ) {
+    const FrPlant *plant = organs->plan->plant;
+    return &organs->groups[MIN(plant->organs.component[organ], plant->components->len)];
+}
+
+static double draw_of(const FrOrganPlan *organs, uint32_t organ) {
+    FrKey path = organs->plan->plant->organs.path[organ];
+    return fr_random(path != 0 ? path : fr_key_root(organ), PURPOSE_STAY, 0);
+}
+
+// Its mesh, NULL if there is nothing to draw.
+static const FrShapeMesh *shape_of(const FrOrganPlan *organs, uint32_t organ) {
+    const FrPlant *plant = organs->plan->plant;
+    uint32_t form = plant->organs.shape[organ];
+    if (form >= plant->shapes->len || !fr_organ_is_drawn(organs->plan, organ)) {
+        return NULL;
+    }
+    const FrShapeMesh *shape = &organs->shapes[form];
+    return shape->index_count > 0 ? shape : NULL;
+}
+
+// Finds which leaf of each component stays in any case, and how much those that stay are enlarged.
+static void count_leaves(FrOrganPlan *organs, uint32_t count) {
+    for (uint32_t i = 0; i < count && organs->staying < 1.0; i++) {
+        const FrShapeMesh *shape = shape_of(organs, i);
+        if (shape == NULL || !shape->is_foliage) {
+            continue;
+        }
+        FrLeafGroup *group = group_of(organs, i);
+        double draw = draw_of(organs, i);
+        if (group->all == 0 || draw < group->lowest) {
+            group->lowest = draw;
+        }
+        group->all++;
+        group->staying += draw < organs->staying ? 1 : 0;
+    }
+    for (uint32_t k = 0; k <= organs->plan->plant->components->len; k++) {
+        FrLeafGroup *group = &organs->groups[k];
+        double each = (double)group->all / MAX(group->staying, 1);
+        group->enlarged = (float)fmin(sqrt(fmax(each, 1.0)), 2.0);
+    }
+}
+
 static bool stays(const FrOrganPlan *organs, uint32_t organ, const FrShapeMesh *shape) {
     if (!shape->is_foliage || organs->staying >= 1.0) {
         return true;
     }
-    FrKey path = organs->plan->plant->organs.path[organ];
-    FrKey key = path != 0 ? path : fr_key_root(organ);
-    return fr_random(key, PURPOSE_STAY, 0) < organs->staying;
+    double draw = draw_of(organs, organ);
+    return draw < organs->staying || draw <= group_of(organs, organ)->lowest;
 }
 
 // From the second level on each has the root of 0.4 of the leaves of the one before.
@@ -72,16 +114,12 @@ static FrStatus prepare_shapes(FrOrganPlan *organs) {
 
 // Gives every organ its place in its part.
 static void place_organs(FrOrganPlan *organs, uint32_t count) {
-    const FrPlan *plan = organs->plan;
-    const FrPlant *plant = plan->plant;
+    const FrPlant *plant = organs->plan->plant;
     for (uint32_t i = 0; i < count; i++) {
         organs->index[i] = UINT64_MAX;
-        uint32_t form = plant->organs.shape[i], slot = fr_slot(plant->organs.material[i]);
-        if (form >= plant->shapes->len || !fr_organ_is_drawn(plan, i)) {
-            continue;
-        }
-        const FrShapeMesh *shape = &organs->shapes[form];
-        if (shape->index_count == 0 || !stays(organs, i, shape)) {
+        uint32_t slot = fr_slot(plant->organs.material[i]);
+        const FrShapeMesh *shape = shape_of(organs, i);
+        if (shape == NULL || !stays(organs, i, shape)) {
             continue;
         }
         organs->vertex[i] = organs->slot_vertices[slot];
@@ -104,14 +142,15 @@ FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
         .slot_vertices = g_new0(uint64_t, plan->slots),
         .slot_indices = g_new0(uint64_t, plan->slots),
         .slot_foliage = g_new0(bool, plan->slots),
+        .groups = g_new0(FrLeafGroup, plant->components->len + 1),
         .staying = staying_at(plan->detail.lod),
     };
-    organs->enlarged = (float)fmin(1.0 / sqrt(organs->staying), 2.0);
     if (count == 0) {
         return FR_OK;
     }
     FrStatus status = prepare_shapes(organs);
     if (status == FR_OK) {
+        count_leaves(organs, count);
         place_organs(organs, count);
     }
     return status;
@@ -128,6 +167,7 @@ void fr_organs_clear(FrOrganPlan *organs) {
     g_free(organs->slot_vertices);
     g_free(organs->slot_indices);
     g_free(organs->slot_foliage);
+    g_free(organs->groups);
 }
 
 // Columns of the rotation, and the place.
@@ -183,7 +223,8 @@ void fr_write_organs(const FrOrganPlan *organs, size_t begin, size_t end, FrUpAx
         const FrMeshPart *part = &mesh->parts[part_of[slot]];
         FrVertex *out = mesh->vertices + part->first_vertex + organs->vertex[i];
         uint32_t *index = mesh->indices + part->first_index + organs->index[i];
-        float scale = plant->organs.scale[i] * (shape->is_foliage ? organs->enlarged : 1.0F);
+        float scale =
+            plant->organs.scale[i] * (shape->is_foliage ? group_of(organs, organ)->enlarged : 1.0F);
         FrPose pose = pose_of(plant, organ, up);
         copy_shape(shape, &pose, scale, (uint32_t)organs->vertex[i], out, index);
         uint32_t scope = fr_plan_scope(organs->plan, plant->organs.deformer[organ]);

@@ -2,12 +2,20 @@
 //
 // From the second level of detail on, ever fewer leaves are drawn: a leaf stays while the random
 // number of its path is below the part that stays (so the leaves of a level are among those of the
-// one before), and those that stay are enlarged to keep the whole area, at most twice
+// one before), and those that stay are enlarged to keep the whole area, at most twice. The leaf of
+// a component with the lowest number always stays, so that no kind of leaf vanishes
 // (Cook, Halstead, Planck, Ryu. Stochastic Simplification of Aggregate Detail. SIGGRAPH 2007).
 #pragma once
 
 #include "skin/shape.h"
 #include "skin/tube.h"
+
+/// The leaves of one component.
+typedef struct FrLeafGroup {
+    uint32_t all, staying;
+    double lowest; ///< random number of any
+    float enlarged;
+} FrLeafGroup;
 
 typedef struct FrOrganPlan {
     const FrPlan *plan;
@@ -17,8 +25,8 @@ typedef struct FrOrganPlan {
     uint64_t *slot_vertices, *slot_indices; ///< by slot
     bool *slot_foliage;                     ///< by slot
     bool *is_used;                          ///< by shape
-    float enlarged;
-    double staying; ///< part of the leaves
+    FrLeafGroup *groups;                    ///< by component, then those without one
+    double staying;                         ///< part of the leaves
 } FrOrganPlan;
 
 /// Neither shed nor hidden, nor on something shed.

@@ -97,6 +97,31 @@ static void test_leaf_area(void) {
     fr_plant_free(plant);
 }
 
+static void test_last_leaf(void) {
+    FrPlant *plant = tree();
+    plant->organs.count = 1;
+    // The area of one leaf does not grow when there are no others to stand for.
+    float reach = 0.0F;
+    for (uint32_t path = 1; path < 20; path++) {
+        plant->organs.path[0] = fr_key_root(path);
+        for (int lod = 0; lod <= 8; lod++) {
+            FrSkinParams params = fr_skin_default();
+            params.lod = lod;
+            FrMesh *mesh = check_skin(plant, &params);
+            g_assert_cmpuint(mesh->part_count, ==, 2);
+            const FrMeshPart *part = &mesh->parts[1];
+            g_assert_cmpuint(part->index_count, >, 0);
+            float size = part->max[2] - part->min[2];
+            reach = lod == 2 ? size : reach;
+            if (lod > 2) {
+                g_assert_cmpfloat(size, <, 1.2F * reach);
+            }
+            fr_mesh_free(mesh);
+        }
+    }
+    fr_plant_free(plant);
+}
+
 static void test_threads(void) {
     FrPlant *plant = tree();
     FrSkinParams params = fr_skin_default();
@@ -198,6 +223,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/detail/no level moves a tip", test_tips_stay);
     g_test_add_func("/skin/detail/fewer leaves keep the area, enlarged at most twice",
                     test_leaf_area);
+    g_test_add_func("/skin/detail/no level draws the last leaf of a component away",
+                    test_last_leaf);
     g_test_add_func("/skin/detail/1, 2, 3 and 8 threads make the same bits", test_threads);
     g_test_add_func("/skin/detail/y up is z up turned", test_up);
     g_test_add_func("/skin/detail/wood and foliage are parts, shed and hidden organs are none",
