@@ -7,8 +7,8 @@
 /// Bark: u goes around with a whole number of tiles; v is 0 at the base and falls towards the tip,
 /// so pictures stand upright; tiles shrink with the radius and keep their shape. An axis of point
 /// sets has its rings at the tips of its nodes and nothing before the first. From the second level
-/// of detail on ever fewer leaves are drawn, each enlarged (at most twice) to keep the whole area; the
-/// last of a component stays.
+/// of detail on ever fewer leaves are drawn, each enlarged (at most twice) to keep the whole area;
+/// the last of a component stays.
 #pragma once
 
 #include "frond/plant.h"
@@ -43,7 +43,7 @@ typedef enum FrUpAxis { FR_UP_Z, FR_UP_Y } FrUpAxis;
 /// Settings of a skin. X rows as in param.h; in the struct `bend` is in radians.
 #define FR_SKIN_PARAMS(X)                                                                          \
     X(INTEGER, lod, "0", 0, 8, "", "", "level of detail: 0 is finest, each level has some 40 %")   \
-    X(REAL, bend, "3.5", 0.5, 90, "deg", "", "a ring for every so many degrees a branch turns")     \
+    X(REAL, bend, "3.5", 0.5, 90, "deg", "", "a ring for every so many degrees a branch turns")    \
     X(REAL, side_length, "0.02", 0.0001, 10, "m", "", "wanted length of a side of a tube")         \
     X(INTEGER, min_sides, "4", 3, 128, "", "", "sides of the thinnest twigs")                      \
     X(INTEGER, max_sides, "24", 3, 128, "", "", "sides of the thickest stems")                     \
