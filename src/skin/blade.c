@@ -15,6 +15,8 @@
 #include <math.h>
 
 enum { FINE = FR_BLADE_FINE, ROWS_MOST = 128, ACROSS_MOST = 32 };
+/// From this level of detail on petioles are too thin to see.
+enum { PETIOLE_GONE = 2 };
 
 static double curve_at(const FrProfile *curve, double x) {
     const double(*p)[2] = (const double(*)[2])curve->points;
@@ -153,6 +155,9 @@ static void lay_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBladeForm
     if (!(outline.area > 1e-6)) {
         return;
     }
+    if (detail->lod < PETIOLE_GONE) {
+        fr_outline_thicken(&outline, blade);
+    }
     uint32_t along, across;
     fr_blade_segments(blade, detail, &along, &across);
     bool is_level = blade->curvature_across == 0.0F && blade->fold == 0.0F && blade->wave == 0.0F &&
@@ -230,7 +235,8 @@ void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blad
     mesh->is_foliage = true;
     FrBladeForm form;
     bool has_blade = fr_blade_form_init(&form, plant, blade);
-    if (blade->petiole_length > 0.0F && blade->petiole_radius > 0.0F && detail->lod < 2) {
+    if (blade->petiole_length > 0.0F && blade->petiole_radius > 0.0F &&
+        detail->lod < PETIOLE_GONE) {
         lay_petiole(mesh, blade, &form.petiole, detail);
     }
     if (has_blade) {

@@ -107,6 +107,7 @@ void fr_nurbs_leaf(GArray *forms, const FrPlant *plant, const FrBlade *blade,
     if (!has_blade || !(outline.area > 1e-6)) {
         return;
     }
+    fr_outline_thicken(&outline, blade);
     double waves = blade->wave != 0.0F ? fmin(8.0 * fabs((double)blade->waves), MOST_ROWS) : 0.0;
     uint32_t count = MAX(3U * blade->segments_along, (uint32_t)waves) + 1;
     count = CLAMP(count, LEAST_ROWS, MOST_ROWS);

@@ -7,6 +7,9 @@
 
 #include <math.h>
 
+// A blade without a petiole is this wide where it sits, in parts of its width: half of it.
+#define LEAST_BASE 0.02
+
 static void widest(double *half, double along_a, double y_a, double along_b, double y_b) {
     if (along_a > along_b) {
         widest(half, along_b, y_b, along_a, y_a);
@@ -58,6 +61,42 @@ void fr_outline_init(FrOutline *outline, const FrPlant *plant, uint32_t profile)
     outline->area /= FR_OUTLINE_FINE;
 }
 
+// Widens one half from its base to its widest place, and narrows the rest to keep its area.
+static void thicken_half(double *half, double least) {
+    int widest_at = 0;
+    double before = 0.0, held = 0.0, free = 0.0;
+    for (int i = 0; i <= FR_OUTLINE_FINE; i++) {
+        widest_at = half[i] > half[widest_at] ? i : widest_at;
+        before += half[i];
+    }
+    least = fmin(least, half[widest_at]);
+    for (int i = 0; i <= FR_OUTLINE_FINE; i++) {
+        half[i] = i < widest_at ? fmax(half[i], least) : half[i];
+        held += fmin(half[i], least);
+        free += fmax(half[i] - least, 0.0);
+    }
+    double narrower = free > 0.0 ? fmax(before - held, 0.0) / free : 1.0;
+    for (int i = 0; i <= FR_OUTLINE_FINE; i++) {
+        half[i] = half[i] > least ? least + narrower * (half[i] - least) : half[i];
+    }
+}
+
+void fr_outline_thicken(FrOutline *outline, const FrBlade *blade) {
+    bool has_petiole = blade->petiole_length > 0.0F && blade->petiole_radius > 0.0F;
+    double least = (double)blade->petiole_radius / (double)blade->width;
+    if (!has_petiole) {
+        // Full bases look whole as they are.
+        const int near = FR_OUTLINE_FINE / 50;
+        least = outline->left[near] + outline->right[near] < 2.0 * LEAST_BASE ? LEAST_BASE : 0.0;
+    }
+    if (!(least > 0.0)) {
+        return;
+    }
+    thicken_half(outline->left, least);
+    thicken_half(outline->right, least);
+    outline->least = least;
+}
+
 // How much of the bending of the outline lies before each fine step, in parts of all.
 static void spread(const FrOutline *outline, double *before) {
     before[0] = 0.0;
@@ -106,7 +145,10 @@ void fr_outline_rows(const FrOutline *outline, uint32_t segments, FrOutlineRow *
     bool is_blind = area < 0.25 * outline->area;
     double wider = is_blind ? 0.0 : outline->area / fmax(area, 1e-12);
     for (uint32_t i = 0; i <= segments; i++) {
-        rows[i].left = is_blind ? 0.5 * outline->area : wider * rows[i].left;
-        rows[i].right = is_blind ? 0.5 * outline->area : wider * rows[i].right;
+        // The base keeps its least width.
+        double left = fmin(rows[i].left, outline->least);
+        double right = fmin(rows[i].right, outline->least);
+        rows[i].left = is_blind ? 0.5 * outline->area : fmax(wider * rows[i].left, left);
+        rows[i].right = is_blind ? 0.5 * outline->area : fmax(wider * rows[i].right, right);
     }
 }

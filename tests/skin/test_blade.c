@@ -176,6 +176,53 @@ static void test_frugal(void) {
     fr_plant_free(plant);
 }
 
+// The half width of a flat blade's margin at `z`, between its rows of five vertices.
+static float margin_at(const FrVertex *rows, uint64_t count, float z) {
+    for (uint64_t i = 0; i + 9 < count; i += 5) {
+        const float *low = rows[i].position, *high = rows[i + 5].position;
+        if (z <= high[2]) {
+            return fabsf(low[0] + (z - low[2]) / (high[2] - low[2]) * (high[0] - low[0]));
+        }
+    }
+    return 0.0F;
+}
+
+static void test_base(void) {
+    // y ~ x^1.4 (1 - x)^0.7, sharp at its base.
+    double oblanceolate[33][2], area = 0.0;
+    for (int i = 0; i <= 32; i++) {
+        double x = i / 32.0;
+        oblanceolate[i][0] = x;
+        oblanceolate[i][1] = 1.9 * pow(x, 1.4) * pow(1.0 - x, 0.7);
+    }
+    area = polygon_area((const double(*)[2])oblanceolate, 33) * 0.1 * 0.06;
+    FrPlant *plant = fr_plant_new("blade");
+    for (int k = 0; k < 4; k++) {
+        const float radii[] = {0.0F, 0.0005F, 0.001F, 0.003F};
+        FrShape shape = plain_blade();
+        shape.blade.outline =
+            fr_plant_add_profile(plant, (const double(*)[2])oblanceolate, 33, false);
+        FrMesh *bare = check_shape(plant, &shape);
+        g_assert_cmpfloat_with_epsilon(check_area(bare), area, 0.01 * area);
+        g_assert_cmpfloat(bare->vertices[0].position[0], !=, 0.0F);
+        shape.blade.petiole_length = k > 0 ? 0.01F : 0.0F;
+        shape.blade.petiole_radius = radii[k];
+        FrMesh *mesh = check_shape(plant, &shape);
+        check_sound(mesh);
+        uint64_t petiole = k > 0 ? 6 : 0;
+        for (float z = 0.0F; z < 0.05F; z += 0.0005F) {
+            float half = margin_at(mesh->vertices + petiole, mesh->vertex_count - petiole,
+                                   z + shape.blade.petiole_length);
+            g_assert_cmpfloat(half, >=, 0.999F * radii[k]);
+        }
+        double sides = 3.0 * sqrt(3.0) * (double)(radii[k] * shape.blade.petiole_length);
+        g_assert_cmpfloat_with_epsilon(check_area(mesh) - sides, area, 0.01 * area);
+        fr_mesh_free(mesh);
+        fr_mesh_free(bare);
+    }
+    fr_plant_free(plant);
+}
+
 static void test_hostile(void) {
     static const double spikes[][2] = {{0, 0},      {0.2, 0.5}, {0.3, 0},   {0.31, 0.4},
                                        {0.25, 0.1}, {0.6, 0},   {0.7, 0.9}, {1.5, -3}};
@@ -204,6 +251,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/blade/twist turns the tip about the midrib", test_twist);
     g_test_add_func("/skin/blade/C12: the picture's tip is the blade's tip", test_texture);
     g_test_add_func("/skin/blade/three segments make four triangles, eight if folded", test_frugal);
+    g_test_add_func("/skin/blade/a blade begins no narrower than its petiole", test_base);
     g_test_add_func("/skin/blade/wild outlines and numbers give sound triangles", test_hostile);
     return g_test_run();
 }
