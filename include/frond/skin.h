@@ -46,7 +46,7 @@ typedef enum FrUpAxis { FR_UP_Z, FR_UP_Y } FrUpAxis;
     X(REAL, bend, "3.5", 0.5, 90, "deg", "", "a ring for every so many degrees a branch turns")    \
     X(REAL, side_length, "0.02", 0.0001, 10, "m", "", "wanted length of a side of a tube")         \
     X(INTEGER, min_sides, "4", 3, 128, "", "", "sides of the thinnest twigs")                      \
-    X(INTEGER, max_sides, "24", 3, 128, "", "", "sides of the thickest stems")                     \
+    X(INTEGER, max_sides, "48", 3, 128, "", "", "sides of the thickest stems")                     \
     X(REAL, collar, "1", 0, 4, "", "", "size of the collar at a branch's base; 0: none")           \
     X(SWITCH, caps, "yes", 0, 1, "", "", "close the ends of tubes")                                \
     X(SWITCH, foliage, "yes", 0, 1, "", "", "with organs; without: wood only")

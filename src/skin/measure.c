@@ -41,7 +41,8 @@ static bool extend(const FrDetail *detail, FrBand *band, float length, vec3s hea
         return false;
     }
     if (next.length > 0.0F) {
-        float slack = detail->taper_share * thick / next.length;
+        float stem = detail->taper_stem * thick + detail->taper_length;
+        float slack = MIN(detail->taper_twig * thick, stem) / next.length;
         next.low = MAX(band->low, slope - slack);
         next.high = MIN(band->high, slope + slack);
     }

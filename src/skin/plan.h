@@ -15,11 +15,13 @@
 /// Settings as the algorithms want them, with the level of detail already applied.
 typedef struct FrDetail {
     int lod;
-    float bend_chord;  ///< distance of two unit directions as far apart as a band may turn
-    float sag_share;   ///< how far a band may cut a corner, in radii …
-    float sag_length;  ///< … plus metres
-    float taper_share; ///< how far a band may miss a node's radius, in radii
-    float side_length; ///< m
+    float bend_chord;   ///< distance of two unit directions as far apart as a band may turn
+    float sag_share;    ///< how far a band may cut a corner, in radii …
+    float sag_length;   ///< … plus metres
+    float taper_twig;   ///< how far a band may miss a node's radius, in radii of a twig …
+    float taper_stem;   ///< … and of a stem, whose outline is seen from nearer: in radii …
+    float taper_length; ///< … plus metres
+    float side_length;  ///< m
     uint32_t min_sides, max_sides;
     float collar;
     bool caps, foliage;

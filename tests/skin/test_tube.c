@@ -116,6 +116,36 @@ static void test_thinning_keeps_shape(void) {
     fr_plant_free(plant);
 }
 
+// The outline of a thick stem that swells and narrows is round along it and around it.
+static void test_thick(void) {
+    FrPlant *plant = fr_plant_new("vase");
+    check_stem(plant, FR_NONE, 26, 0.46F, 0.1F, 0.1F, check_straight, check_straight);
+    plant->axes.flags[0] |= FR_CUT;
+    for (uint32_t n = 0; n < 26; n++) {
+        plant->nodes.radius[n] = 0.1F + 0.18F * sinf((float)G_PI * (float)(n + 1) / 26.0F);
+    }
+    FrSkinParams params = fr_skin_default();
+    params.caps = false;
+    FrMesh *mesh = check_skin(plant, &params);
+    const uint64_t columns = 49, rings = mesh->vertex_count / columns;
+    g_assert_cmpuint(mesh->vertex_count, ==, rings * columns);
+    for (uint32_t n = 0; n < 26; n++) {
+        float z = plant->nodes.position[n].z, missed = INFINITY;
+        for (uint64_t r = 0; r + 1 < rings; r++) {
+            const float *a = mesh->vertices[r * columns].position;
+            const float *b = mesh->vertices[(r + 1) * columns].position;
+            float part = (z - a[2]) / (b[2] - a[2]);
+            if (part >= -1e-4F && part <= 1.0001F) {
+                float low = hypotf(a[0], a[1]), high = hypotf(b[0], b[1]);
+                missed = fabsf(low + part * (high - low) - plant->nodes.radius[n]);
+            }
+        }
+        g_assert_cmpfloat(missed, <, 0.01F * plant->nodes.radius[n] + 0.0005F);
+    }
+    fr_mesh_free(mesh);
+    fr_plant_free(plant);
+}
+
 static void test_hostile(void) {
     FrPlant *plant = fr_plant_new("hostile");
     versors back = fr_rotation_about((vec3s){{1, 0, 0}}, (float)G_PI);
@@ -257,6 +287,7 @@ static void test_hidden(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/skin/tube/a thick stem keeps its outline within a hundredth", test_thick);
     g_test_add_func("/skin/tube/a closed tube has Euler number two and no open edge", test_closed);
     g_test_add_func("/skin/tube/a straight tube has the volume of a cylinder", test_volume);
     g_test_add_func("/skin/tube/a tapered tube has slanted normals and ends in its tip",
