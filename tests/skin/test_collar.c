@@ -123,6 +123,24 @@ static void test_end(void) {
     }
 }
 
+static void test_thicker(void) {
+    FrPlant *plant = fr_plant_new("thicker");
+    check_stem(plant, FR_NONE, 20, 2.0F, 0.05F, 0.05F, check_straight, check_straight);
+    check_stem(plant, 10, 6, 1.0F, 0.15F, 0.15F, fr_rotation_about((vec3s){{1, 0, 0}}, 1.5707963F),
+               check_straight);
+    FrSkinParams params = twelve_sides();
+    FrMesh *mesh = check_skin(plant, &params), *bare = without_branch(plant);
+    check_sound(mesh);
+    for (int i = 0; i < COLUMNS; i++) {
+        const float *at = mesh->vertices[bare->vertex_count + (uint64_t)i].position;
+        vec3s origin = plant->nodes.position[10];
+        g_assert_cmpfloat_with_epsilon(hypotf(at[0] - origin.x, at[2] - origin.z), 0.15F, 1e-3F);
+    }
+    fr_mesh_free(mesh);
+    fr_mesh_free(bare);
+    fr_plant_free(plant);
+}
+
 // Without a collar a branch still begins inside, with one it begins wider.
 static void test_size(void) {
     float widest[3];
@@ -159,6 +177,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/collar/a branch begins on a curved parent's surface", test_curved);
     g_test_add_func("/skin/collar/a branch at its parent's tip begins within a blunt end",
                     test_end);
+    g_test_add_func("/skin/collar/a branch thicker than its parent begins round", test_thicker);
     g_test_add_func("/skin/collar/the size of a collar widens the base", test_size);
     return g_test_run();
 }
