@@ -18,8 +18,8 @@ def equal_digests(example):
 
 
 def equal_models(example):
-    # Textures take longest; one example with them is enough, the others are written without.
-    extension = ".glb" if example.stem == "figure2" else ".ply"
+    # Textures take longest; three examples with them are enough, the others are written without.
+    extension = ".glb" if example.stem in ("chestnut", "figure2", "sunflower") else ".ply"
 
     def test(folder):
         models = []
@@ -55,7 +55,7 @@ TESTS = [(f"/program/threads/{example.stem} has one digest", equal_digests(examp
 TESTS += [(f"/program/threads/the model of {example.stem} has the same bytes", equal_models(example))
           for example in tap.EXAMPLES]
 TESTS += [(f"/program/threads/the picture of {example.stem} has the same bytes", equal_pictures(example))
-          for example in tap.EXAMPLES if example.stem in ("agave", "figure2", "sunflower")]
+          for example in tap.EXAMPLES if example.stem in ("agave", "chestnut", "figure2", "sunflower")]
 TESTS += [(f"/program/threads/another seed makes another {example.stem}", seeds_differ(example))
           for example in tap.EXAMPLES if example.stem == "chestnut"]
 
