@@ -26,7 +26,8 @@ FR_API char *fr_document_text(const FrDocument *document, size_t *size);
 FR_API FR_MUST_USE FrStatus fr_document_save(const FrDocument *document, const char *path,
                                              FrDiags *diags);
 /// `path` is `id.attribute` or `plant.component.attribute`, e.g. `trunk.length`; `value` the
-/// attribute's text. A bad path lists near names. The definitions follow.
+/// attribute's text. `plant.slider` is short for that slider's `value`. A bad path lists near
+/// names. The definitions follow.
 FR_API FR_MUST_USE FrStatus fr_document_set(FrDocument *document, const char *path,
                                             const char *value, const FrContext *context);
 
@@ -37,13 +38,30 @@ typedef enum FrPlantKind {
     FR_PLANT_VARIED, ///< another plant of the document, varied
 } FrPlantKind;
 
+/// A `<slider>` of a plant: one handle for many of its numbers.
+#define FR_SLIDER_PARAMS(X)                                                                        \
+    X(TEXT, label, "", 0, 0, "", "", "what it does, in a few words")                               \
+    X(REAL, min, "0", -1000000000, 1000000000, "", "", "its least value")                          \
+    X(REAL, max, "1", -1000000000, 1000000000, "", "", "its greatest value")                       \
+    X(REAL, initial, "1", -1000000000, 1000000000, "", "", "where it stands at first")             \
+    X(REAL, value, "1", -1000000000, 1000000000, "", "",                                           \
+      "where it stands now; if it is not given, as at first")
+
+typedef struct FrSlider {
+    FR_SLIDER_PARAMS(FR_PARAM_FIELD)
+    char *id;
+} FrSlider;
+
+FR_API const FrParamTable *fr_slider_table(void);
+
 /// A `<plant>`: a name, a seed and one engine's definition.
 typedef struct FrPlantDef {
     char *id;
     uint64_t seed;
     FrPlantKind kind;
-    FrPgraph *pgraph; ///< for FR_PLANT_PGRAPH, else empty
-    FrVary *vary;     ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
+    GPtrArray *sliders; ///< FrSlider *, in the order of the document
+    FrPgraph *pgraph;   ///< for FR_PLANT_PGRAPH, else empty
+    FrVary *vary;       ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
     FrSpan span;
 } FrPlantDef;
 

@@ -50,9 +50,16 @@ typedef struct FrVars {
 typedef struct FrScope FrScope;
 
 FR_API FrScope *fr_scope_new(void);
+/// A scope that also knows the curves and functions of `outer`, which must live longer.
+FR_API FrScope *fr_scope_new_within(const FrScope *outer);
 FR_API void fr_scope_free(FrScope *scope);
 /// Takes a reference. False if the name is taken.
 FR_API bool fr_scope_add_curve(FrScope *scope, const char *name, FrCurve *curve);
+/// A name for a number, as a slider gives it. False if the name is taken: by a variable, a
+/// constant, a function, a curve or another number.
+FR_API bool fr_scope_add_value(FrScope *scope, const char *name, double value);
+/// The number of that name; false if there is none.
+FR_API bool fr_scope_value(const FrScope *scope, const char *name, double *value);
 /// `parameters` are names separated by spaces or commas; `body` may call what was added before.
 FR_API FrStatus fr_scope_add_function(FrScope *scope, const char *name, const char *parameters,
                                       const char *body, FrSpan span, FrDiags *diags);

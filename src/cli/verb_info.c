@@ -73,6 +73,34 @@ static void print_components(const Grown *grown) {
     }
 }
 
+static const char *label_of(const FrSlider *slider) {
+    return slider->label == NULL ? "" : slider->label;
+}
+
+static void print_sliders(const FrPlantDef *definition) {
+    for (guint i = 0; i < definition->sliders->len; i++) {
+        const FrSlider *slider = g_ptr_array_index(definition->sliders, i);
+        if (i == 0) {
+            printf("  %-20s %10s %12s\n", "slider", "value", "range");
+        }
+        char *range = g_strdup_printf("%g to %g", slider->min, slider->max);
+        printf("  %-20s %10g %12s  %s\n", slider->id, slider->value, range, label_of(slider));
+        g_free(range);
+    }
+}
+
+static json_t *sliders_json(const FrPlantDef *definition) {
+    json_t *sliders = json_array();
+    for (guint i = 0; i < definition->sliders->len; i++) {
+        const FrSlider *slider = g_ptr_array_index(definition->sliders, i);
+        json_array_append_new(sliders, json_pack("{s:s, s:s, s:f, s:f, s:f, s:f}", "id", slider->id,
+                                                 "label", label_of(slider), "value", slider->value,
+                                                 "min", slider->min, "max", slider->max, "initial",
+                                                 slider->initial));
+    }
+    return sliders;
+}
+
 static void print_plant(const Grown *grown) {
     char *instances = cli_count_text(grown->counts.instances);
     char *axes = cli_count_text(grown->plant->axes.count);
@@ -87,6 +115,7 @@ static void print_plant(const Grown *grown) {
     g_free(nodes);
     g_free(organs);
     print_components(grown);
+    print_sliders(grown->definition);
 }
 
 static json_t *components_json(const Grown *grown) {
@@ -112,11 +141,12 @@ static json_t *plant_json(const Grown *grown) {
     char digest[17];
     g_snprintf(digest, sizeof digest, "%016" G_GINT64_MODIFIER "x", fr_plant_digest(grown->plant));
     return json_pack(
-        "{s:s, s:I, s:s, s:I, s:I, s:I, s:I, s:I, s:o}", "id", grown->definition->id, "seed",
+        "{s:s, s:I, s:s, s:I, s:I, s:I, s:I, s:I, s:o, s:o}", "id", grown->definition->id, "seed",
         (json_int_t)grown->seed, "digest", digest, "instances", (json_int_t)grown->counts.instances,
         "axes", (json_int_t)grown->plant->axes.count, "nodes",
         (json_int_t)grown->plant->nodes.count, "organs", (json_int_t)grown->plant->organs.count,
-        "shapes", (json_int_t)grown->plant->shapes->len, "components", components_json(grown));
+        "shapes", (json_int_t)grown->plant->shapes->len, "components", components_json(grown),
+        "sliders", sliders_json(grown->definition));
 }
 
 /// A varied plant has the components of its base; what is told is which base that is.

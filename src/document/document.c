@@ -7,6 +7,7 @@ static void free_plant(void *data) {
     FrPlantDef *plant = data;
     fr_pgraph_free(plant->pgraph);
     fr_vary_free(plant->vary);
+    g_ptr_array_unref(plant->sliders);
     g_free(plant->id);
     g_free(plant);
 }

@@ -14,6 +14,9 @@ static const FrParam function_rows[] = {FR_FUNCTION_PARAMS(FR_PARAM_ROW)};
 #define FR_PARAM_STRUCT FrPlantParams
 static const FrParam plant_rows[] = {FR_PLANT_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrSlider
+static const FrParam slider_rows[] = {FR_SLIDER_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
 #define FR_PARAM_STRUCT FrLinkParams
 static const FrParam link_rows[] = {FR_LINK_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
@@ -37,10 +40,16 @@ TABLE(frond, FrFrondParams, "a document");
 TABLE(curve, FrCurveParams, "a hand-drawn curve y(x), to be named in numbers and expressions");
 TABLE(function, FrFunctionParams, "a function for expressions; its text is the expression");
 TABLE(plant, FrPlantParams, "a plant");
+TABLE(slider, FrSlider,
+      "a number that the numbers of its plant may use by its id: one handle for many attributes");
 TABLE(link, FrLinkParams, "where one component is made, another is made on it");
 TABLE(scene, FrSceneParams, "where plants stand and how they are lit and seen");
 TABLE(place, FrPlace, "a plant that stands somewhere");
 TABLE(view, FrViewParams, "a view of the scene");
+
+const FrParamTable *fr_slider_table(void) {
+    return &slider_table;
+}
 
 const FrParamTable *fr_scene_table(void) {
     return &scene_table;
@@ -75,7 +84,8 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
     [FR_ELEMENT_PLANT] = {.name = "plant",
                           .table = &plant_table,
                           .has_id = true,
-                          .children = SET(PGRAPH) | SET(VARY)},
+                          .children = SET(SLIDER) | SET(PGRAPH) | SET(VARY)},
+    [FR_ELEMENT_SLIDER] = {.name = "slider", .table = &slider_table, .has_id = true},
     [FR_ELEMENT_PGRAPH] = {.name = "pgraph",
                            .meaning = "linked components that are expanded to a plant "
                                       "(Lintermann, Deussen 1999)",

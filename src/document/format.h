@@ -11,6 +11,7 @@ typedef enum FrElementId {
     FR_ELEMENT_FUNCTION,
     FR_ELEMENT_MATERIAL,
     FR_ELEMENT_PLANT,
+    FR_ELEMENT_SLIDER,
     FR_ELEMENT_PGRAPH,
     FR_ELEMENT_LINK,
     FR_ELEMENT_VARY,
@@ -24,7 +25,7 @@ typedef enum FrElementId {
 } FrElementId;
 
 /// A set of elements: bit 1 << FrElementId.
-typedef uint32_t FrElementSet;
+typedef uint64_t FrElementSet;
 
 typedef struct FrElement {
     const char *name;

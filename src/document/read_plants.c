@@ -13,6 +13,9 @@ static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
                           .span = fr_xml_span(reader->tree, reader->tree->nodes[node].name)};
     fr_params_clear(table, &params);
 
+    FrScope *scope = fr_scope_new_within(reader->document->scope);
+    plant->sliders = fr_read_sliders(reader, node, scope);
+    reader->scope = scope;
     plant->pgraph = fr_pgraph_new(id, plant->seed);
     uint32_t graph = fr_read_first(reader, node, FR_ELEMENT_PGRAPH);
     uint32_t vary = fr_read_first(reader, node, FR_ELEMENT_VARY);
@@ -24,10 +27,17 @@ static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
                       "the plant '%s' is a <pgraph> already", id);
     } else if (vary != FR_NONE) {
         plant->kind = FR_PLANT_VARIED;
+        if (plant->sliders->len > 0) {
+            fr_read_error(reader, "misplaced-element", reader->tree->nodes[vary].name,
+                          "the sliders of a varied plant are those of the plant it is made from");
+        }
         plant->vary = fr_read_vary(reader, vary);
     } else {
         fr_read_pgraph(reader, graph, plant->pgraph);
+        fr_read_check_sliders(reader, node, plant->pgraph);
     }
+    reader->scope = reader->document->scope;
+    fr_scope_free(scope);
     return plant;
 }
 
@@ -48,6 +58,12 @@ FrPgraph *fr_document_reseed(const FrDocument *document, const FrPlantDef *plant
         FrMaterial *material = g_ptr_array_index(document->materials, i);
         g_hash_table_insert(reader.material_ids, g_strdup(fr_material_name(material)), material);
     }
+    FrScope *scope = fr_scope_new_within(document->scope);
+    for (guint i = 0; i < plant->sliders->len; i++) {
+        const FrSlider *slider = g_ptr_array_index(plant->sliders, i);
+        fr_scope_add_value(scope, slider->id, slider->value);
+    }
+    reader.scope = scope;
     FrPgraph *graph = fr_pgraph_new(plant->id, seed);
     uint32_t node = find_node(document->tree, plant->span.begin);
     FR_ASSERT(node != FR_NONE);
@@ -56,6 +72,7 @@ FrPgraph *fr_document_reseed(const FrDocument *document, const FrPlantDef *plant
         fr_read_pgraph(&reader, definition, graph);
     }
     fr_reader_close(&reader);
+    fr_scope_free(scope);
     return graph;
 }
 

@@ -13,6 +13,7 @@ void fr_reader_open(FrReader *reader, FrDocument *document, FrDiags *diags) {
         (FrReader){.document = document,
                    .tree = document->tree,
                    .diags = diags,
+                   .scope = document->scope,
                    .material_ids = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
                    .plant_ids = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL)};
 }
@@ -198,8 +199,8 @@ static void set_attribute(FrReader *reader, uint32_t node, const FrXmlAttribute 
     }
     char *value = fr_xml_decode(reader->tree, attribute->value, true);
     fr_read_note(reader, fr_params_set(element->table, object, row, value,
-                                       fr_xml_span(reader->tree, attribute->value),
-                                       reader->document->scope, reader->diags));
+                                       fr_xml_span(reader->tree, attribute->value), reader->scope,
+                                       reader->diags));
     g_free(value);
 }
 

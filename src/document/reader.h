@@ -21,6 +21,7 @@ typedef struct FrReader {
     FrStatus status;          ///< the worst so far
     GHashTable *material_ids; ///< id → FrMaterial *
     GHashTable *plant_ids;    ///< id → FrPlantDef *
+    const FrScope *scope;     ///< what expressions may use where the reader is
     uint32_t hints;           ///< names suggested so far
 } FrReader;
 
@@ -34,6 +35,11 @@ FR_MUST_USE FrStatus fr_document_read(FrDocument *document, const FrContext *con
 void fr_read_curves(FrReader *reader, uint32_t parent);
 void fr_read_materials(FrReader *reader, uint32_t parent);
 void fr_read_plants(FrReader *reader, uint32_t parent);
+/// Reads the `<slider>`s of a `<plant>`; each becomes a number of `scope`. Free with
+/// g_ptr_array_unref().
+GPtrArray *fr_read_sliders(FrReader *reader, uint32_t plant, FrScope *scope);
+/// Reports sliders and components of one name, which `--set` could not tell apart.
+void fr_read_check_sliders(FrReader *reader, uint32_t plant, const FrPgraph *graph);
 void fr_read_pgraph(FrReader *reader, uint32_t node, FrPgraph *graph);
 /// Reads a `<vary>`; NULL after an error that leaves nothing of it.
 FrVary *fr_read_vary(FrReader *reader, uint32_t node);

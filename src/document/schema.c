@@ -19,6 +19,11 @@ static const char types[] =
     "  <xs:simpleType name=\"real\">\n"
     "    <xs:restriction base=\"xs:double\"><xs:pattern value=\"" REAL "\"/></xs:restriction>\n"
     "  </xs:simpleType>\n"
+    "  <xs:simpleType name=\"fixed\">\n"
+    "    <xs:annotation><xs:documentation>= 2*size, of numbers and sliders</xs:documentation>"
+    "</xs:annotation>\n"
+    "    <xs:restriction base=\"xs:token\"><xs:pattern value=\"=.*\"/></xs:restriction>\n"
+    "  </xs:simpleType>\n"
     "  <xs:simpleType name=\"number\">\n"
     "    <xs:annotation><xs:documentation>45, 80..30, 45 ~ 5, 80..30 ~ 5 : t^2, "
     "= 3 + 2*i, keys 0,10 5,80, 45 | parent dome</xs:documentation></xs:annotation>\n"
@@ -26,8 +31,7 @@ static const char types[] =
     ")?( ?~ ?" REAL ")?( ?[:|].*)?\"/></xs:restriction>\n"
     "  </xs:simpleType>\n"
     "  <xs:simpleType name=\"switch\">\n"
-    "    <xs:restriction base=\"xs:token\"><xs:enumeration value=\"yes\"/>"
-    "<xs:enumeration value=\"no\"/></xs:restriction>\n"
+    "    <xs:restriction base=\"xs:token\"><xs:pattern value=\"yes|no|=.*\"/></xs:restriction>\n"
     "  </xs:simpleType>\n"
     "  <xs:simpleType name=\"points\">\n"
     "    <xs:restriction base=\"xs:token\"><xs:pattern value=\"(" REAL " ?, ?" REAL "( " REAL
@@ -70,9 +74,11 @@ static void append_bound(GString *out, const char *facet, double value) {
 
 /// The type of one attribute where a named type does not say all.
 static void append_own_type(GString *out, const FrParam *row) {
+    bool is_choice = row->kind == FR_PARAM_CHOICE;
     g_string_append(out, "      <xs:simpleType>");
+    g_string_append(out, is_choice ? "" : "<xs:union memberTypes=\"fixed\"><xs:simpleType>");
     APPEND(out, "<xs:restriction base=\"%s\">", type_name(row->kind));
-    if (row->kind == FR_PARAM_CHOICE) {
+    if (is_choice) {
         char **choices = g_strsplit(row->choices, " ", -1);
         for (char **choice = choices; *choice != NULL; choice++) {
             APPEND(out, "<xs:enumeration value=\"%s\"/>", *choice);
@@ -82,7 +88,9 @@ static void append_own_type(GString *out, const FrParam *row) {
         append_bound(out, "minInclusive", row->min);
         append_bound(out, "maxInclusive", row->max);
     }
-    g_string_append(out, "</xs:restriction></xs:simpleType>\n");
+    g_string_append(out, "</xs:restriction>");
+    g_string_append(out, is_choice ? "" : "</xs:simpleType></xs:union>");
+    g_string_append(out, "</xs:simpleType>\n");
 }
 
 static void append_attribute(GString *out, const FrParam *row, const FrElement *element) {

@@ -118,14 +118,34 @@ static const Target *find_target(const GArray *targets, const char *plant, const
     return found;
 }
 
+/// The nearest slider of the plant that a target is, else the nearest attribute; NULL. Free with
+/// g_free().
+static char *suggest(const GArray *targets, const Target *target, const FrElement *element,
+                     const char *name) {
+    GPtrArray *sliders = g_ptr_array_new();
+    for (guint i = 0; i < targets->len; i++) {
+        const Target *other = &g_array_index(targets, Target, i);
+        if (other->element == FR_ELEMENT_SLIDER && other->plant != NULL &&
+            strcmp(other->plant, target->name) == 0) {
+            g_ptr_array_add(sliders, other->name);
+        }
+    }
+    bool is_plant = target->element == FR_ELEMENT_PLANT;
+    char *near = g_strdup(
+        fr_nearest_name(name, (const char *const *)sliders->pdata, is_plant ? sliders->len : 0));
+    g_ptr_array_unref(sliders);
+    return near != NULL || element->table == NULL ? near : fr_params_suggest(element->table, name);
+}
+
 /// The attribute's name as documents write it, or NULL with an error. Free with g_free().
-static char *find_attribute_name(const Target *target, const char *name, FrDiags *diags) {
+static char *find_attribute_name(const GArray *targets, const Target *target, const char *name,
+                                 FrDiags *diags) {
     FrElement element = fr_element(target->element);
     const FrParam *row = element.table == NULL ? NULL : fr_params_find(element.table, name);
     if (row != NULL) {
         return fr_param_attribute(row);
     }
-    char *near = element.table == NULL ? NULL : fr_params_suggest(element.table, name);
+    char *near = suggest(targets, target, &element, name);
     if (near != NULL) {
         fr_diags_add(diags, FR_ERROR, "unknown-path", (FrSpan){0},
                      "<%s> '%s' has no attribute '%.64s'; did you mean '%s'?", element.name,
@@ -215,9 +235,24 @@ static FrStatus replace_text(FrDocument *document, const GString *text, FrXmlRan
     return status;
 }
 
-static FrStatus set_target(FrDocument *document, const Target *target, const char *attribute,
-                           const char *value, const FrContext *context) {
-    char *name = find_attribute_name(target, attribute, context->diags);
+/// `plant.slider`: the slider, and its value as the attribute that is meant. Else the target
+/// itself.
+static const Target *slider_of(const GArray *targets, const Target *target,
+                               const char **attribute) {
+    bool is_row = fr_params_find(fr_element(FR_ELEMENT_PLANT).table, *attribute) != NULL;
+    for (guint i = 0; target->element == FR_ELEMENT_PLANT && !is_row && i < targets->len; i++) {
+        const Target *other = &g_array_index(targets, Target, i);
+        if (other->element == FR_ELEMENT_SLIDER && matches(other, target->name, *attribute)) {
+            *attribute = "value";
+            return other;
+        }
+    }
+    return target;
+}
+
+static FrStatus set_target(FrDocument *document, const GArray *targets, const Target *target,
+                           const char *attribute, const char *value, const FrContext *context) {
+    char *name = find_attribute_name(targets, target, attribute, context->diags);
     if (name == NULL) {
         return FR_ERR_USAGE;
     }
@@ -245,7 +280,9 @@ FrStatus fr_document_set(FrDocument *document, const char *path, const char *val
         const Target *target =
             find_target(targets, count == 3 ? parts[0] : NULL, parts[count - 2], context->diags);
         if (target != NULL) {
-            status = set_target(document, target, parts[count - 1], value, context);
+            const char *attribute = parts[count - 1];
+            target = slider_of(targets, target, &attribute);
+            status = set_target(document, targets, target, attribute, value, context);
         }
         g_array_unref(targets);
     }

@@ -14,7 +14,8 @@ typedef struct Factor {
 
 struct FrFactors {
     gatomicrefcount references;
-    FrCurve *keys; // over time; NULL
+    FrCurve *keys;   // over time; NULL
+    double constant; // the product of what is the same for all
     uint32_t count;
     Factor of[MOST_FACTORS];
 };
@@ -22,6 +23,7 @@ struct FrFactors {
 static FrFactors *factors_new(void) {
     FrFactors *factors = g_new0(FrFactors, 1);
     g_atomic_ref_count_init(&factors->references);
+    factors->constant = 1;
     return factors;
 }
 
@@ -54,7 +56,7 @@ bool fr_factors_key(const FrFactors *factors, const FrVars *vars, double *value)
 }
 
 double fr_factors_product(const FrFactors *factors, const FrVars *vars, bool is_along_itself) {
-    double product = 1;
+    double product = is_along_itself ? 1 : factors->constant;
     for (uint32_t k = 0; k < factors->count; k++) {
         const Factor *factor = &factors->of[k];
         if ((factor->var == FR_VAR_s) == is_along_itself) {
@@ -62,6 +64,10 @@ double fr_factors_product(const FrFactors *factors, const FrVars *vars, bool is_
         }
     }
     return product;
+}
+
+bool fr_factors_are_fixed(const FrFactors *factors) {
+    return factors->count == 0 && factors->keys == NULL;
 }
 
 bool fr_factors_use(const FrFactors *factors, FrVar var) {
@@ -94,40 +100,70 @@ static bool find_variable(const char *name, FrVar *var) {
     return fr_variable_find(name, var);
 }
 
-// One clause: a variable, then a curve.
-static bool read_factor(FrFactors *factors, const FrValueText *clause) {
-    size_t begin = strspn(clause->text, " \t\r\n");
-    size_t end = begin + strcspn(clause->text + begin, " \t\r\n");
-    char *name = g_strndup(clause->text + begin, end - begin);
-    Factor factor = {0};
-    bool is_known = find_variable(name, &factor.var);
-    if (!is_known) {
-        fr_diags_add(clause->diags, FR_ERROR, "unknown-name", fr_place(clause->span, begin, end),
-                     "here should be what a curve is over: parent, self, depth, order, age, season "
-                     "or another variable, not '%.40s'",
-                     name);
+// The part of a clause behind its first word, without the space around it.
+static FrValueText rest_of(const FrValueText *clause, size_t end, char **text) {
+    size_t first = end + strspn(clause->text + end, " \t\r\n");
+    size_t last = strlen(clause->text);
+    while (last > first && g_ascii_isspace(clause->text[last - 1])) {
+        last--;
     }
-    g_free(name);
-    if (is_known && factors->count == MOST_FACTORS) {
-        fr_diags_add(clause->diags, FR_ERROR, "too-many-curves", fr_place(clause->span, begin, end),
+    FrValueText rest = *clause;
+    rest.text = *text = g_strndup(clause->text + first, last - first);
+    rest.span = fr_place(clause->span, first, last);
+    return rest;
+}
+
+// A number of the scope: times itself or, where a curve follows, times the curve at it.
+static bool read_fixed(FrFactors *factors, double value, const FrValueText *rest) {
+    if (*rest->text != '\0') {
+        FrCurve *curve = read_curve(rest);
+        if (curve == NULL) {
+            return false;
+        }
+        value = fr_curve_eval(curve, value);
+        fr_curve_unref(curve);
+    }
+    factors->constant *= value;
+    return true;
+}
+
+static bool read_varying(FrFactors *factors, FrVar var, const FrValueText *rest, FrSpan name) {
+    if (factors->count == MOST_FACTORS) {
+        fr_diags_add(rest->diags, FR_ERROR, "too-many-curves", name,
                      "a number has at most %d curves", MOST_FACTORS);
         return false;
     }
-    if (!is_known) {
-        return false;
-    }
-    char *text = g_strstrip(g_strdup(clause->text + end));
-    size_t size = strlen(clause->text);
-    FrValueText value = *clause;
-    value.text = text;
-    size_t first = end + strspn(clause->text + end, " \t\r\n");
-    value.span = fr_place(clause->span, first, MAX(first + strlen(text), MIN(first, size)));
-    factor.curve = read_curve(&value);
-    g_free(text);
+    Factor factor = {var, read_curve(rest)};
     if (factor.curve != NULL) {
         factors->of[factors->count++] = factor;
     }
     return factor.curve != NULL;
+}
+
+// One clause: a variable, then a curve; or a slider, then a curve or nothing.
+static bool read_factor(FrFactors *factors, const FrValueText *clause) {
+    size_t begin = strspn(clause->text, " \t\r\n");
+    size_t end = begin + strcspn(clause->text + begin, " \t\r\n");
+    FrSpan place = fr_place(clause->span, begin, end);
+    char *name = g_strndup(clause->text + begin, end - begin), *text;
+    FrValueText rest = rest_of(clause, end, &text);
+    FrVar var;
+    double value;
+    bool is_good = false;
+    if (find_variable(name, &var)) {
+        is_good = read_varying(factors, var, &rest, place);
+    } else if (fr_scope_value(clause->scope, name, &value)) {
+        is_good = read_fixed(factors, value, &rest);
+    } else {
+        fr_diags_add(
+            clause->diags, FR_ERROR, "unknown-name", place,
+            "here should be what a curve is over: parent, self, depth, order, age, season, "
+            "another variable or a slider, not '%.40s'",
+            name);
+    }
+    g_free(name);
+    g_free(text);
+    return is_good;
 }
 
 FrFactors *fr_factors_read(const FrValueText *value) {

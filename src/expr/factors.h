@@ -15,4 +15,6 @@ void fr_factors_unref(FrFactors *factors);
 bool fr_factors_key(const FrFactors *factors, const FrVars *vars, double *value);
 /// The product of the curves along the component itself, or of all others.
 double fr_factors_product(const FrFactors *factors, const FrVars *vars, bool is_along_itself);
+/// True if they are the same for every instance.
+bool fr_factors_are_fixed(const FrFactors *factors);
 bool fr_factors_use(const FrFactors *factors, FrVar var);

@@ -305,9 +305,13 @@ static void settle(FrNumber *number, FrSpan span, FrDiags *diags) {
     double part = 0;
     bool is_range = number->from != number->to;
     bool is_fixed = number->function != NULL && fr_expr_is_constant(number->function, &part);
-    number->is_constant =
-        number->variance == 0 && number->factors == NULL && (!is_range || is_fixed);
-    number->constant = limit(number, number->from + part * (number->to - number->from));
+    number->is_constant = number->variance == 0 && (!is_range || is_fixed) &&
+                          (number->factors == NULL || fr_factors_are_fixed(number->factors));
+    double value = number->from + part * (number->to - number->from);
+    if (number->is_constant && number->factors != NULL) {
+        value *= fr_factors_product(number->factors, NULL, false);
+    }
+    number->constant = limit(number, value);
     if (is_fixed) {
         // Then it fails for every instance or for none, and this is the time to say so.
         FrExprFault fault = {0};

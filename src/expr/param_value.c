@@ -102,20 +102,66 @@ static bool expect_end(Cursor *cursor) {
     return is_at_end(cursor) || wrong(cursor, "the end");
 }
 
+// "= 2*size": a number that is the same for all, of numbers and sliders only.
+static bool read_fixed(Cursor *cursor, double *number) {
+    const FrValueText *value = cursor->value;
+    cursor->at++; // the sign
+    FrSpan span = fr_place(value->span, cursor->at, cursor->size);
+    FrExpr *expr = fr_expr_compile(value->text + cursor->at, span, value->scope, value->diags);
+    if (expr == NULL) {
+        return false;
+    }
+    bool is_fixed = fr_expr_is_constant(expr, number);
+    if (is_fixed) {
+        FrExprFault fault = {0};
+        const FrVars none = {0};
+        fr_expr_eval(expr, &none, &fault);
+        fr_expr_report_fault(&fault, "expression", value->diags);
+    } else {
+        fr_diags_add(value->diags, FR_ERROR, "not-fixed", span,
+                     "this is the same for the whole plant: only numbers and sliders may be used");
+    }
+    fr_expr_unref(expr);
+    cursor->at = cursor->size;
+    return is_fixed;
+}
+
+static bool is_expression(Cursor *cursor) {
+    skip_space(cursor);
+    return cursor->value->text[cursor->at] == '=';
+}
+
 // ---- kinds ------------------------------------------------------------------------------------
 
 static bool parse_real(Cursor *cursor, const FrParam *param, double *field) {
     double number;
-    if (!read_bounded(cursor, param, &number) || !expect_end(cursor)) {
+    size_t begin = cursor->at;
+    bool is_good = is_expression(cursor)
+                       ? read_fixed(cursor, &number) && check_range(cursor, param, number, begin)
+                       : read_bounded(cursor, param, &number);
+    if (!is_good || !expect_end(cursor)) {
         return false;
     }
     *field = number * scale_of(param);
     return true;
 }
 
-static bool parse_integer(Cursor *cursor, const FrParam *param, int64_t *field) {
+// An expression is rounded: sliders move in between.
+static bool parse_fixed_integer(Cursor *cursor, const FrParam *param, int64_t *field) {
     double number;
-    skip_space(cursor);
+    size_t begin = cursor->at;
+    if (!read_fixed(cursor, &number) || !check_range(cursor, param, round(number), begin)) {
+        return false;
+    }
+    *field = (int64_t)CLAMP(round(number), -0x1p62, 0x1p62);
+    return true;
+}
+
+static bool parse_integer(Cursor *cursor, const FrParam *param, int64_t *field) {
+    if (is_expression(cursor)) {
+        return parse_fixed_integer(cursor, param, field);
+    }
+    double number;
     size_t begin = cursor->at;
     if (!read_number(cursor, &number)) {
         return false;
@@ -138,7 +184,14 @@ static bool parse_integer(Cursor *cursor, const FrParam *param, int64_t *field) 
     return true;
 }
 
-static bool parse_switch(const FrValueText *value, bool *field) {
+static bool parse_switch(Cursor *cursor, bool *field) {
+    const FrValueText *value = cursor->value;
+    if (is_expression(cursor)) {
+        double number;
+        bool is_good = read_fixed(cursor, &number);
+        *field = is_good ? number != 0 : *field;
+        return is_good;
+    }
     static const char *const words[] = {"yes", "no", "true", "false"};
     for (size_t i = 0; i < G_N_ELEMENTS(words); i++) {
         if (strcmp(value->text, words[i]) == 0) {
@@ -367,7 +420,7 @@ FrStatus fr_value_parse(const FrValueText *value, const FrParam *param, void *fi
         is_good = parse_integer(&cursor, param, field);
         break;
     case FR_PARAM_SWITCH:
-        is_good = parse_switch(value, field);
+        is_good = parse_switch(&cursor, field);
         break;
     case FR_PARAM_CHOICE:
         is_good = parse_choice(value, param, field);

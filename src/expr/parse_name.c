@@ -58,6 +58,7 @@ static void report_unknown_value(FrParser *parser, const char *name, size_t begi
     for (size_t i = 0; i < G_N_ELEMENTS(constants); i++) {
         g_ptr_array_add(names, (char *)constants[i]);
     }
+    fr_scope_list_values(parser->scope, names);
     report_unknown(parser, "unknown-name", "variable", name, names, begin, end);
 }
 
@@ -73,7 +74,7 @@ static uint32_t resolve_value(FrParser *parser, const char *name, size_t begin, 
         return fr_parser_add(parser, FR_NODE_VARIABLE, variable, begin, end);
     }
     double value;
-    if (fr_builtin_constant(name, &value)) {
+    if (fr_builtin_constant(name, &value) || fr_scope_value(parser->scope, name, &value)) {
         return fr_parser_number(parser, value, begin, end);
     }
     report_unknown_value(parser, name, begin, end);

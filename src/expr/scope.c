@@ -4,6 +4,8 @@
 #include <string.h>
 
 struct FrScope {
+    const FrScope *outer;   // NULL
+    GHashTable *values;     // name → double
     GHashTable *curves;     // name → FrCurve
     GHashTable *functions;  // name → FrFunction, borrowed from `in_order`
     GPtrArray *in_order;    // FrFunction
@@ -19,7 +21,13 @@ static void free_function(void *data) {
 }
 
 FrScope *fr_scope_new(void) {
+    return fr_scope_new_within(NULL);
+}
+
+FrScope *fr_scope_new_within(const FrScope *outer) {
     FrScope *scope = g_new(FrScope, 1);
+    scope->outer = outer;
+    scope->values = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
     scope->curves =
         g_hash_table_new_full(g_str_hash, g_str_equal, g_free, (GDestroyNotify)fr_curve_unref);
     scope->functions = g_hash_table_new(g_str_hash, g_str_equal);
@@ -32,6 +40,7 @@ void fr_scope_free(FrScope *scope) {
     if (scope == NULL) {
         return;
     }
+    g_hash_table_unref(scope->values);
     g_hash_table_unref(scope->curves);
     g_hash_table_unref(scope->functions);
     g_ptr_array_unref(scope->in_order);
@@ -42,8 +51,13 @@ void fr_scope_free(FrScope *scope) {
 // Calls look among functions and curves alike, so they share their names. A built-in curve may be
 // replaced, a built-in function not.
 static bool is_taken(const FrScope *scope, const char *name) {
-    return fr_builtin_find(name) != FR_NONE || g_hash_table_contains(scope->functions, name) ||
-           g_hash_table_contains(scope->curves, name);
+    bool is_found = fr_builtin_find(name) != FR_NONE;
+    for (; scope != NULL && !is_found; scope = scope->outer) {
+        is_found = g_hash_table_contains(scope->functions, name) ||
+                   g_hash_table_contains(scope->curves, name) ||
+                   g_hash_table_contains(scope->values, name);
+    }
+    return is_found;
 }
 
 bool fr_scope_add_curve(FrScope *scope, const char *name, FrCurve *curve) {
@@ -62,6 +76,20 @@ static bool is_identifier(const char *name) {
         is_good = is_good && (g_ascii_isalnum(*c) || *c == '_');
     }
     return is_good;
+}
+
+bool fr_scope_add_value(FrScope *scope, const char *name, double value) {
+    FrVar variable;
+    double constant;
+    FrCurve *curve = fr_scope_find_curve(scope, name);
+    bool is_free = curve == NULL && is_identifier(name) && !is_taken(scope, name) &&
+                   !fr_variable_find(name, &variable) && !fr_builtin_constant(name, &constant);
+    fr_curve_unref(curve);
+    if (!is_free) {
+        return false;
+    }
+    g_hash_table_insert(scope->values, g_strdup(name), g_memdup2(&value, sizeof value));
+    return true;
 }
 
 // The names in a list separated by spaces and commas.
@@ -140,12 +168,30 @@ FrStatus fr_scope_add_function(FrScope *scope, const char *name, const char *par
 
 // ---- looking up -------------------------------------------------------------------------------
 
+bool fr_scope_value(const FrScope *scope, const char *name, double *value) {
+    const double *found = NULL;
+    for (; scope != NULL && found == NULL; scope = scope->outer) {
+        found = g_hash_table_lookup(scope->values, name);
+    }
+    if (found != NULL) {
+        *value = *found;
+    }
+    return found != NULL;
+}
+
 const FrFunction *fr_scope_function(const FrScope *scope, const char *name) {
-    return scope != NULL ? g_hash_table_lookup(scope->functions, name) : NULL;
+    const FrFunction *found = NULL;
+    for (; scope != NULL && found == NULL; scope = scope->outer) {
+        found = g_hash_table_lookup(scope->functions, name);
+    }
+    return found;
 }
 
 FrCurve *fr_scope_curve(const FrScope *scope, const char *name) {
-    FrCurve *curve = scope != NULL ? g_hash_table_lookup(scope->curves, name) : NULL;
+    FrCurve *curve = NULL;
+    for (; scope != NULL && curve == NULL; scope = scope->outer) {
+        curve = g_hash_table_lookup(scope->curves, name);
+    }
     return curve != NULL ? fr_curve_ref(curve) : fr_curve_builtin(name);
 }
 
@@ -163,19 +209,34 @@ void fr_scope_list_functions(const FrScope *scope, GPtrArray *names) {
     for (uint32_t i = 0; i < fr_builtin_count; i++) {
         g_ptr_array_add(names, (char *)fr_builtins[i].name);
     }
-    for (guint i = 0; scope != NULL && i < scope->in_order->len; i++) {
-        const FrFunction *function = g_ptr_array_index(scope->in_order, i);
-        g_ptr_array_add(names, function->name);
+    for (; scope != NULL; scope = scope->outer) {
+        for (guint i = 0; i < scope->in_order->len; i++) {
+            const FrFunction *function = g_ptr_array_index(scope->in_order, i);
+            g_ptr_array_add(names, function->name);
+        }
     }
 }
 
 void fr_scope_list_curves(const FrScope *scope, GPtrArray *names) {
-    for (guint i = 0; scope != NULL && i < scope->curve_names->len; i++) {
-        g_ptr_array_add(names, g_ptr_array_index(scope->curve_names, i));
+    for (; scope != NULL; scope = scope->outer) {
+        for (guint i = 0; i < scope->curve_names->len; i++) {
+            g_ptr_array_add(names, g_ptr_array_index(scope->curve_names, i));
+        }
     }
     size_t count;
     const char *const *builtin = fr_curve_builtin_names(&count);
     for (size_t i = 0; i < count; i++) {
         g_ptr_array_add(names, (char *)builtin[i]);
+    }
+}
+
+void fr_scope_list_values(const FrScope *scope, GPtrArray *names) {
+    for (; scope != NULL; scope = scope->outer) {
+        GHashTableIter iterator;
+        gpointer name;
+        g_hash_table_iter_init(&iterator, scope->values);
+        while (g_hash_table_iter_next(&iterator, &name, NULL)) {
+            g_ptr_array_add(names, name);
+        }
     }
 }

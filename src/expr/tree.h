@@ -81,6 +81,8 @@ FrExpr *fr_expr_of_curve(FrCurve *curve, const char *text, FrSpan span);
 const FrFunction *fr_scope_function(const FrScope *scope, const char *name);
 /// As fr_scope_curve(); a name with `_` also finds the curve with `-`.
 FrCurve *fr_scope_find_curve(const FrScope *scope, const char *name);
+/// Adds the names of numbers to `names`, in any order.
+void fr_scope_list_values(const FrScope *scope, GPtrArray *names);
 /// Adds the names of functions to `names`.
 void fr_scope_list_functions(const FrScope *scope, GPtrArray *names);
 /// Adds the names of curves, also built-in ones, to `names`.

@@ -65,6 +65,9 @@ static const Command commands[] = {
     {"render $S/examples/figure2.frond -o f.png --camera frnt", 2, "", "*did you mean 'front'?\n"},
     // what is in it
     {"info $S/examples/figure2.frond", 0, "*12 instances*D*horn*9*in 3 chains of 3\n*", ""},
+    {"info $S/data/presets/oak.frond --set oak.size=0.5", 0, "*slider*size*0.5*0.3 to 1.6*\n*", ""},
+    {"info $S/data/presets/oak.frond --set oak.size=9", 1, "", "*[out-of-range]*"},
+    {"info $S/data/presets/oak.frond --set oak.siez=1", 2, "", "*did you mean 'size'?*"},
     {"info none.glb", 1, "", "*none.glb*"},
     {"schema", 0, "<?xml*<xs:schema*name=\"phiball\"*</xs:schema>\n", ""},
     {"reference", 0, "# The `.frond` document*## `<phiball>`*", ""},

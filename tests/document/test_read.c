@@ -69,6 +69,10 @@ typedef struct Wrong {
 
 #define GRAPH(inner) "<plant id='p'><pgraph><camera id='r'/>" inner "</pgraph></plant>"
 
+#define SLIDERS(inner)                                                                             \
+    "<plant id='p'>" inner "<pgraph><camera id='r'/><horn id='h'/>"                                \
+    "<link from='r' to='h'/></pgraph></plant>"
+
 static const Wrong wrongs[] = {
     {"<oak/>", "unknown-element", 2, 2},
     {"<place plant='p'/>", "misplaced-element", 2, 2},
@@ -92,6 +96,18 @@ static const Wrong wrongs[] = {
     {GRAPH("<link to='r'/>"), "missing-attribute", 2, 40},
     {GRAPH("<horn id='r'/>"), NULL, 2, 0},
     {GRAPH("<horn id='h'/><link from='r' to='h' kind='stem'/>"), "unknown-choice", 2, 81},
+    {"<slider id='s'/>", "misplaced-element", 2, 2},
+    {SLIDERS("<slider id='t'/>"), "name-taken", 2, 27},
+    {SLIDERS("<slider id='seed'/>"), "name-taken", 2, 27},
+    {SLIDERS("<slider id='bell'/>"), "name-taken", 2, 27},
+    {SLIDERS("<slider id='a-b'/>"), "name-taken", 2, 27},
+    {SLIDERS("<slider id='r'/>"), "duplicate-id", 2, 27},
+    {SLIDERS("<slider id='a'/>\n<slider id='a'/>"), "duplicate-id", 3, 13},
+    {SLIDERS("<slider id='a' min='2'/>"), "slider-range", 2, 35},
+    {SLIDERS("<slider id='a' initial='2'/>"), "out-of-range", 2, 39},
+    {SLIDERS("<slider id='a' value='-1'/>"), "out-of-range", 2, 37},
+    {"<plant id='p'><pgraph><camera id='r'/><horn id='h' seed='= t'/></pgraph></plant>",
+     "not-fixed", 2, 59},
     {"<scene/>\n<scene/>", "repeated-element", 3, 2},
     {"<scene><place/></scene>", "missing-attribute", 2, 9},
     {"<scene><place plant='oak'/></scene>", "unknown-plant", 2, 22},

@@ -67,6 +67,12 @@ static void test_agrees_with_reader(void) {
         {"<scene ground-colour='#123aBc'/>", true},
         {"<scene ground-colour='#12345'/>", false},
         {"<scene ground-colour='red'/>", false},
+        {"<scene sun-elevation='= 9*5'/>", true},
+        {"<scene ground='= 1 &gt; 2'/>", true},
+        {"<plant id='p'><slider id='k' min='0' max='2'/><pgraph><horn id='h' length='2 | k'/>"
+         "</pgraph></plant>",
+         true},
+        {"<plant id='p'><slider/><pgraph><horn id='h'/></pgraph></plant>", false},
         {"<oak/>", false},
         {"text", false},
         {"<material id='m'/>", true},
