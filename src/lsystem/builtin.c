@@ -115,16 +115,26 @@ static double normal(FrLmachine *machine) {
     return y * factor;
 }
 
-// The ratio of gamma deviates by Jöhnk's method (1964); for large parameters it would never end,
-// hence a bound on the draws.
+static double uniform_above_zero(FrLmachine *machine) {
+    double value;
+    do {
+        value = uniform(machine);
+    } while (value == 0);
+    return value;
+}
+
+// Algorithm BA of Cheng (1978), which needs as many draws as it rejects; hence a bound.
 static double beta(FrLmachine *machine, double a, double b) {
     if (!(a > 0 && b > 0)) {
         return 0;
     }
+    double sum = a + b, least = MIN(a, b);
+    double lambda = least <= 1 ? least : sqrt((2 * a * b - sum) / (sum - 2)), u = a + lambda;
     for (int draw = 0; draw < 10000; draw++) {
-        double x = pow(uniform(machine), 1 / a), y = pow(uniform(machine), 1 / b);
-        if (x + y <= 1 && x + y > 0) {
-            return x / (x + y);
+        double u1 = uniform_above_zero(machine), u2 = uniform_above_zero(machine);
+        double v = (1 / lambda) * log(u1 / (1 - u1)), y = a * exp(v);
+        if (!(sum * log(sum / (b + y)) + u * v - log(4) < log(u1 * u1 * u2))) {
+            return y / (b + y);
         }
     }
     return a / (a + b);
@@ -132,10 +142,10 @@ static double beta(FrLmachine *machine, double a, double b) {
 
 static double binomial(FrLmachine *machine, double n, double p) {
     double count = 0;
-    n = MIN(n, MOST_DRAWS);
+    n = trunc(MIN(n, MOST_DRAWS));
     machine->loops += n > 0 ? (uint64_t)n : 0;
     for (double i = 1; i <= n; i++) {
-        count += uniform(machine) < p;
+        count += uniform(machine) <= p;
     }
     return count;
 }

@@ -53,14 +53,6 @@ uint32_t fr_linstance_new(FrLderivation *derivation, const FrLunit *unit,
     for (guint i = 0; i < unit->initializers->len; i++) {
         fr_lmachine_run(&derivation->machine, g_array_index(unit->initializers, uint32_t, i));
     }
-    if (unit->seed != FR_NONE) {
-        double seed = fr_lmachine_run(&derivation->machine, unit->seed);
-        instance->random =
-            fr_lrandom_seed_a(isfinite(seed) ? (int64_t)CLAMP(seed, -9e18, 9e18) : 0);
-    }
-    if (unit->is_stochastic && derivation->settings.seed >= 0) {
-        instance->random = fr_lrandom_seed_a(derivation->settings.seed);
-    }
     return slot;
 }
 
@@ -166,6 +158,16 @@ static FrStatus make_axiom(FrLderivation *derivation, const FrContext *context) 
     return FR_OK;
 }
 
+/// Starts stream A; only the main L-system's seed counts.
+static void seed_choice(FrLderivation *derivation, const FrLunit *unit) {
+    double seed =
+        unit->seed == FR_NONE ? 0 : trunc(fr_lmachine_run(&derivation->machine, unit->seed));
+    if (unit->is_stochastic && derivation->settings.seed >= 0) {
+        seed = (double)derivation->settings.seed;
+    }
+    derivation->random = fr_lrandom_seed_a(isfinite(seed) ? (int64_t)CLAMP(seed, -9e18, 9e18) : 0);
+}
+
 static FrStatus begin(FrLderivation *derivation, const FrContext *context) {
     const FrLunit *unit = g_ptr_array_index(derivation->system->units, 0);
     FrLmachine *machine = &derivation->machine;
@@ -173,6 +175,7 @@ static FrStatus begin(FrLderivation *derivation, const FrContext *context) {
         return FR_ERR_LIMIT;
     }
     FrLinstance *instance = g_ptr_array_index(derivation->instances, 0);
+    seed_choice(derivation, unit);
     double length =
         unit->length == FR_NONE ? 0 : fr_lmachine_run(&derivation->machine, unit->length);
     derivation->length = length >= 0 ? (int64_t)MIN(length, 9e15) : 0;

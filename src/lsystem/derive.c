@@ -88,7 +88,7 @@ static void decompose(Step *step, guint offset, guint count, const FrLsite *site
         const FrLproduction *production = fr_lmatch_first(
             &step->matcher, step->decomposition, words + at, words + offset + count, site, &taken);
         if (production != NULL && depth >= step->depth) {
-            if (step->decomposition->warns) {
+            if (step->decomposition->warns && step->depth > 0) {
                 uint32_t place = production->values == FR_NONE ? 0 : production->values;
                 fr_lmachine_fault(step->matcher.machine, "decomposition-depth", place);
             }
@@ -113,11 +113,24 @@ static void decompose(Step *step, guint offset, guint count, const FrLsite *site
     }
 }
 
-static void append_decomposed(Step *step, const uint32_t *words, uint32_t count,
-                              const FrLsite *site) {
-    g_array_set_size(step->scratch, 0);
-    g_array_append_vals(step->scratch, words, count);
-    decompose(step, 0, count, site, 0);
+/// Decomposes the modules at `here`, which no production has rewritten. How many words of the old
+/// string that takes; 0 if nothing applies.
+static uint32_t decompose_kept(Step *step, const uint32_t *here, FrLsite *site, uint32_t *modules) {
+    uint32_t taken;
+    site->behind = site->before + 1;
+    const FrLproduction *production =
+        step->decomposition->list->len == 0
+            ? NULL
+            : fr_lmatch_first(&step->matcher, step->decomposition, here,
+                              step->from->words + step->from->count, site, &taken);
+    if (production == NULL || step->depth == 0) {
+        return 0;
+    }
+    g_array_set_size(step->scratch, production->word_count);
+    fr_lmatch_produce(&step->matcher, production, (uint32_t *)(void *)step->scratch->data);
+    decompose(step, 0, production->word_count, site, 1);
+    *modules = production->strict.count;
+    return taken;
 }
 
 static void apply(Step *step, const FrLproduction *production, const FrLsite *site) {
@@ -174,10 +187,27 @@ static bool is_active(const Step *step, const FrLunit *unit) {
     return is_found;
 }
 
-/// Enters the L-system that the module `?(id, …)` just copied calls.
-static void call(Step *step, uint32_t *module) {
+/// The instance of a called L-system: that of the module, or a new one.
+static FrLinstance *instance_of(Step *step, const FrLunit *unit, uint32_t *number) {
+    GPtrArray *instances = step->derivation->instances;
+    FrLinstance *instance =
+        *number == 0 || *number >= instances->len ? NULL : g_ptr_array_index(instances, *number);
+    if (instance == NULL || instance->unit != unit) {
+        *number = fr_linstance_new(step->derivation, unit, step->context);
+        if (*number == FR_NONE) {
+            step->status = FR_ERR_LIMIT;
+            return NULL;
+        }
+        instance = g_ptr_array_index(instances, *number);
+    }
+    return instance;
+}
+
+/// Enters the L-system that the module `?(id, …)` of the old string calls. `kept` is the module of
+/// the new string that goes on with its instance; NULL: the instance ends with this step.
+static void call(Step *step, const uint32_t *module, uint32_t *kept) {
     FrLderivation *derivation = step->derivation;
-    const FrLunit *unit = fr_lsystem_unit(derivation->system, fr_lword_float(module[1]));
+    const FrLunit *unit = fr_lsystem_unit(derivation->system, trunc(fr_lword_float(module[1])));
     if (unit == NULL) {
         return;
     }
@@ -186,19 +216,14 @@ static void call(Step *step, uint32_t *module) {
         return;
     }
     uint32_t number = *module >> 16;
-    FrLinstance *instance = number == 0 || number >= derivation->instances->len
-                                ? NULL
-                                : g_ptr_array_index(derivation->instances, number);
-    if (instance == NULL || instance->unit != unit) {
-        number = fr_linstance_new(derivation, unit, step->context);
-        if (number == FR_NONE) {
-            step->status = FR_ERR_LIMIT;
-            return;
-        }
-        *module = (*module & FR_LHEAD_KEY) | number << 16;
-        instance = g_ptr_array_index(derivation->instances, number);
+    FrLinstance *instance = instance_of(step, unit, &number);
+    if (instance == NULL) {
+        return;
     }
-    instance->was_seen = true;
+    if (kept != NULL) {
+        *kept = (*kept & FR_LHEAD_KEY) | number << 16;
+    }
+    instance->was_seen = kept != NULL;
     exchange(step->instance, instance, false);
     step->callers[step->calls++] = step->instance;
     work_in(step, instance);
@@ -219,81 +244,103 @@ static void leave(Step *step) {
     exchange(step->instance, called, true);
 }
 
-// ---- the scan ---------------------------------------------------------------------------------
-
-/// Words from a cut to the end of its branch (the bracket itself stays).
-static uint64_t cut(const Step *step, uint64_t at, uint64_t *module) {
-    const FrLstring *from = step->from;
-    uint32_t depth = 0;
-    while (at < from->count) {
-        unsigned symbol = fr_lhead_symbol(from->words[at]);
-        if ((symbol == ']' && depth == 0) || (symbol == '$' && step->calls > 0)) {
-            break;
+/// The first `?(id, …)` among the words from `at` on; NULL if it calls another L-system.
+static uint32_t *find_kept(Step *step, uint64_t at, const uint32_t *module) {
+    FrLstring *to = step->to;
+    while (at < to->count) {
+        uint32_t *here = to->words + at;
+        if (fr_lhead_symbol(*here) == '?' && fr_lhead_count(*here) > 0) {
+            return here[1] == module[1] ? here : NULL;
         }
-        depth += symbol == '[';
-        depth -= symbol == ']';
-        at += 1 + fr_lhead_count(from->words[at]);
-        (*module)++;
+        at += 1 + fr_lhead_count(*here);
     }
-    return at;
+    return NULL;
 }
 
-static void keep(Step *step, const uint32_t *here, const FrLsite *site) {
-    uint32_t words = 1 + fr_lhead_count(*here);
-    if (step->decomposition->list->len > 0) {
-        append_decomposed(step, here, words, site);
-        return;
+/// Calls and returns of the modules from `here` to `end`, whose successor begins at word `out`.
+static void follow(Step *step, const uint32_t *here, const uint32_t *end, uint64_t out) {
+    while (here < end && step->status == FR_OK) {
+        unsigned symbol = fr_lhead_symbol(*here), count = fr_lhead_count(*here);
+        if (symbol == '?' && count > 0) {
+            call(step, here, find_kept(step, out, here));
+        } else if (symbol == '$' && step->calls > 0) {
+            leave(step);
+        }
+        here += 1 + count;
     }
-    copy_module(step, here);
-    unsigned symbol = fr_lhead_symbol(*here), count = words - 1;
-    if (symbol == '?' && (count == 1 || count == 2) && step->status == FR_OK) {
-        call(step, step->to->words + step->to->count - words);
+}
+
+// ---- the scan ---------------------------------------------------------------------------------
+
+/// Words from a cut to the end of its branch or called L-system (what ends it stays).
+static uint64_t cut(const Step *step, uint64_t at, uint64_t *module) {
+    const FrLstring *from = step->from;
+    uint32_t depth = 1, calls = 1;
+    bool is_paper = step->derivation->system->is_paper; // there $ only turns
+    for (at += 1, (*module)++; at < from->count; (*module)++) {
+        unsigned symbol = fr_lhead_symbol(from->words[at]);
+        unsigned count = fr_lhead_count(from->words[at]);
+        depth += symbol == '[';
+        calls += symbol == '?' && count > 0;
+        if ((symbol == ']' && --depth == 0) || (symbol == '$' && !is_paper && --calls == 0) ||
+            (symbol == '%' && count > 0)) {
+            break;
+        }
+        at += 1 + count;
     }
+    return at;
 }
 
 static const FrLproduction *choose(Step *step, const uint32_t *here, const FrLsite *site,
                                    uint32_t *taken) {
     const uint32_t *end = step->from->words + step->from->count;
     if (step->instance->unit->is_stochastic) {
-        double draw = fr_lrandom_next(&step->instance->random);
+        double draw = fr_lrandom_next(&step->derivation->random);
         return fr_lmatch_random(&step->matcher, step->section, here, end, site, draw, taken);
     }
     return fr_lmatch_first(&step->matcher, step->section, here, end, site, taken);
 }
 
+/// Rewrites, decomposes, cuts or copies what stands at `at`; returns where the rest begins.
+static uint64_t rewrite(Step *step, uint64_t at, uint64_t *module) {
+    const uint32_t *here = step->from->words + at;
+    FrLsite site = {step->needs_index ? &step->index : NULL, (uint32_t)*module, FR_NONE};
+    uint32_t taken = 0, modules = 1;
+    const FrLproduction *production = choose(step, here, &site, &taken);
+    if (production != NULL) {
+        site.behind = (uint32_t)*module + production->strict.count;
+        apply(step, production, &site);
+        *module += production->strict.count;
+        return at + taken;
+    }
+    taken = decompose_kept(step, here, &site, &modules);
+    if (taken == 0 && *here == fr_lhead('%', 0)) {
+        return cut(step, at, module);
+    }
+    if (taken == 0) {
+        copy_module(step, here);
+        taken = 1 + fr_lhead_count(*here);
+    }
+    *module += modules;
+    return at + taken;
+}
+
 static void scan(Step *step) {
     const FrLstring *from = step->from;
     FrLmachine *machine = &step->derivation->machine;
+    bool has_calls = step->derivation->system->units->len > 1;
     uint64_t at = 0, module = 0;
     while (at < from->count && step->status == FR_OK) {
         const uint32_t *here = from->words + at;
-        FrLsite site = {step->needs_index ? &step->index : NULL, (uint32_t)module, FR_NONE};
-        uint32_t taken = 1 + fr_lhead_count(*here);
+        uint64_t out = step->to->count;
         machine->module = module;
         if ((module & 0xFFFF) == 0 && fr_progress_is_cancelled(step->context->progress)) {
             step->status = FR_CANCELLED;
         }
-        if (step->calls > 0 && fr_lhead_symbol(*here) == '$') {
-            leave(step);
-            copy_module(step, here);
-            at += taken;
-            module++;
-            continue;
-        }
-        uint32_t words = taken;
-        const FrLproduction *production = choose(step, here, &site, &taken);
-        if (production != NULL) {
-            site.behind = (uint32_t)module + production->strict.count;
-            apply(step, production, &site);
-            at += taken;
-            module += production->strict.count;
-        } else if (*here == fr_lhead('%', 0)) {
-            at = cut(step, at, &module);
-        } else {
-            site.behind = (uint32_t)module + 1;
-            keep(step, here, &site);
-            at += words;
-            module++;
+        bool is_cut = *here == fr_lhead('%', 0);
+        at = rewrite(step, at, &module);
+        if (has_calls && !is_cut) {
+            follow(step, here, from->words + at, out);
         }
         if (machine->is_endless) {
             step->status = FR_ERR_LIMIT;

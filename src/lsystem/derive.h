@@ -21,7 +21,6 @@ struct FrLstring {
 typedef struct FrLinstance {
     const FrLunit *unit;
     double *variables;
-    uint64_t random; ///< stream A
     bool has_started, was_seen;
 } FrLinstance;
 
@@ -33,6 +32,7 @@ struct FrLderivation {
     FrLstring *string, *other; ///< now, and room for the next
     GPtrArray *instances;      ///< FrLinstance *, some NULL; the first is the main one
     uint64_t variables;        ///< of all instances
+    uint64_t random;           ///< stream A, one for all L-systems of the file
     FrLmachine machine;
     GArray *choices; ///< uint16_t: production of each module + 1, in parallel steps
     int64_t length;

@@ -8,7 +8,8 @@
 typedef struct Reading {
     FrLderivation *derivation;
     const FrContext *context;
-    FrLmatcher matcher;
+    FrLmatcher matcher; ///< with the ignored symbols of the main L-system
+    FrLinstance *instance;
     const FrLsection *section;
     FrLindex index;
     uint32_t depth;
@@ -20,18 +21,22 @@ typedef struct Reading {
     uint64_t origin;
     bool goes_on;
     FrStatus status;
+    uint64_t *random; ///< streams of the L-systems whose homomorphism has a seed
+    bool *is_seeded;
     FrLinstance *callers[100];
     uint32_t calls;
 } Reading;
 
 static void work_in(Reading *reading, FrLinstance *instance) {
-    fr_linstance_enter(reading->derivation, instance);
-    reading->matcher =
-        fr_lmatcher(reading->derivation->system, &reading->derivation->machine, instance->unit);
+    FrLderivation *derivation = reading->derivation;
+    reading->instance = instance;
+    fr_linstance_enter(derivation, instance);
+    reading->matcher = fr_lmatcher(derivation->system, &derivation->machine,
+                                   g_ptr_array_index(derivation->system->units, 0));
     reading->section = &instance->unit->sections[FR_LHOMOMORPHISM];
     reading->depth = 1;
     if (reading->section->depth != FR_NONE) {
-        double depth = fr_lmachine_run(&reading->derivation->machine, reading->section->depth);
+        double depth = fr_lmachine_run(&derivation->machine, reading->section->depth);
         reading->depth =
             (uint32_t)CLAMP(depth, 0, (double)MIN(reading->context->limits.depth, DEEPEST));
     }
@@ -83,30 +88,57 @@ static void replace(Reading *reading, guint offset, guint count, const FrLsite *
     }
 }
 
-/// Enters or leaves a called L-system, whose homomorphism holds within.
-static void follow_call(Reading *reading, const uint32_t *here) {
+/// Enters or leaves a called L-system, whose homomorphism holds within. `here` is of the string.
+static void follow_call(Reading *reading, uint32_t *here) {
     unsigned symbol = fr_lhead_symbol(*here), count = fr_lhead_count(*here);
     FrLderivation *derivation = reading->derivation;
     if (symbol == '$' && reading->calls > 0) {
         work_in(reading, reading->callers[--reading->calls]);
         return;
     }
-    uint32_t number = *here >> 16;
-    if (symbol != '?' || count < 1 || count > 2 || number == 0 ||
-        number >= derivation->instances->len || reading->calls == G_N_ELEMENTS(reading->callers)) {
+    const FrLunit *unit = symbol == '?' && count > 0
+                              ? fr_lsystem_unit(derivation->system, trunc(fr_lword_float(here[1])))
+                              : NULL;
+    if (unit == NULL || reading->calls == G_N_ELEMENTS(reading->callers)) {
         return;
+    }
+    uint32_t number = *here >> 16;
+    if (number == 0 || number >= derivation->instances->len) {
+        number = fr_linstance_new(derivation, unit, reading->context);
+        if (number == FR_NONE) {
+            reading->status = FR_ERR_LIMIT;
+            reading->goes_on = false;
+            return;
+        }
+        *here = (*here & FR_LHEAD_KEY) | number << 16;
     }
     FrLinstance *called = g_ptr_array_index(derivation->instances, number);
     if (called != NULL) {
-        FrLinstance *caller = g_ptr_array_index(derivation->instances, 0);
-        for (guint i = 0; i < derivation->instances->len; i++) {
-            FrLinstance *instance = g_ptr_array_index(derivation->instances, i);
-            caller =
-                instance != NULL && instance->unit == reading->matcher.unit ? instance : caller;
-        }
-        reading->callers[reading->calls++] = caller;
+        reading->callers[reading->calls++] = reading->instance;
         work_in(reading, called);
     }
+}
+
+static void exchange_random(Reading *reading) {
+    GPtrArray *units = reading->derivation->system->units;
+    for (guint u = 0; u < units->len; u++) {
+        if (g_ptr_array_index(units, u) == reading->instance->unit && reading->is_seeded[u]) {
+            uint64_t kept = reading->derivation->machine.random.state;
+            reading->derivation->machine.random.state = reading->random[u];
+            reading->random[u] = kept;
+        }
+    }
+}
+
+/// Replaces modules of the string by what a production gives, with the homomorphism's own random
+/// numbers if it has a seed; its condition drew from the common ones.
+static void apply(Reading *reading, const FrLproduction *production, FrLsite *site) {
+    site->behind = site->before + 1;
+    exchange_random(reading);
+    g_array_set_size(reading->scratch, production->word_count);
+    fr_lmatch_produce(&reading->matcher, production, (uint32_t *)(void *)reading->scratch->data);
+    replace(reading, 0, production->word_count, site, 1);
+    exchange_random(reading);
 }
 
 static void read_string(Reading *reading) {
@@ -115,7 +147,7 @@ static void read_string(Reading *reading) {
     uint64_t module = 0;
     bool has_calls = reading->derivation->system->units->len > 1;
     for (uint64_t at = 0; at < string->count && reading->goes_on;) {
-        const uint32_t *here = string->words + at;
+        uint32_t *here = string->words + at;
         uint32_t own = 1 + fr_lhead_count(*here), taken;
         reading->origin = module;
         reading->matcher.machine->module = module;
@@ -123,27 +155,23 @@ static void read_string(Reading *reading) {
             reading->status = FR_CANCELLED;
             return;
         }
-        if (has_calls) {
-            follow_call(reading, here);
-        }
-        FrLsite site = {&reading->index, (uint32_t)module, FR_NONE};
+        FrLsite site = {&reading->index, (uint32_t)module, (uint32_t)module + 1};
         const FrLproduction *production =
-            reading->section->list->len == 0 || *reading->is_raw || reading->depth == 0
+            reading->section->list->len == 0 || *reading->is_raw
                 ? NULL
                 : fr_lmatch_first(&reading->matcher, reading->section, here, end, &site, &taken);
-        if (production == NULL) {
-            give(reading, here);
-            at += own;
-            module++;
+        if (production != NULL && reading->depth > 0) {
+            apply(reading, production, &site);
+            at += taken;
+            module += production->strict.count;
             continue;
         }
-        site.behind = (uint32_t)module + production->strict.count;
-        g_array_set_size(reading->scratch, production->word_count);
-        fr_lmatch_produce(&reading->matcher, production,
-                          (uint32_t *)(void *)reading->scratch->data);
-        replace(reading, 0, production->word_count, &site, 1);
-        at += taken;
-        module += production->strict.count;
+        give(reading, here);
+        if (has_calls && !*reading->is_raw) {
+            follow_call(reading, here);
+        }
+        at += own;
+        module++;
     }
 }
 
@@ -157,6 +185,21 @@ static bool any_context(const FrLsystem *system) {
     return false;
 }
 
+/// Streams of homomorphisms with a seed begin anew with every reading.
+static void seed_streams(Reading *reading) {
+    FrLderivation *derivation = reading->derivation;
+    GPtrArray *units = derivation->system->units;
+    reading->random = g_new0(uint64_t, units->len);
+    reading->is_seeded = g_new0(bool, units->len);
+    for (guint u = 0; u < units->len; u++) {
+        const FrLunit *unit = g_ptr_array_index(units, u);
+        uint32_t code = unit->sections[FR_LHOMOMORPHISM].seed;
+        double seed = code == FR_NONE ? -1 : trunc(fr_lmachine_run(&derivation->machine, code));
+        reading->is_seeded[u] = seed >= 0 && seed < 9e18;
+        reading->random[u] = reading->is_seeded[u] ? fr_lrandom_seed_b((int64_t)seed) : 0;
+    }
+}
+
 FrStatus fr_lderive_interpret(FrLderivation *derivation, FrLtake take, const bool *raw, void *data,
                               const FrContext *context) {
     static const bool never = false;
@@ -168,18 +211,10 @@ FrStatus fr_lderive_interpret(FrLderivation *derivation, FrLtake take, const boo
                        .goes_on = true,
                        .status = FR_OK,
                        .scratch = g_array_new(FALSE, FALSE, sizeof(uint32_t))};
-    FrLmachine *machine = &derivation->machine;
     FrLinstance *instance = g_ptr_array_index(derivation->instances, 0);
-    FrLrandom kept = machine->random;
-    machine->loops = 0;
+    derivation->machine.loops = 0;
     work_in(&reading, instance);
-    uint32_t seed = reading.section->seed;
-    if (seed != FR_NONE) {
-        double value = fr_lmachine_run(machine, seed);
-        machine->random = (FrLrandom){
-            .state = fr_lrandom_seed_b(isfinite(value) ? (int64_t)CLAMP(value, -9e18, 9e18) : 0),
-            .is_seeded = true};
-    }
+    seed_streams(&reading);
     if (any_context(derivation->system)) {
         fr_lindex_build(&reading.index, derivation->string->words, derivation->string->count,
                         derivation->string->modules);
@@ -187,9 +222,10 @@ FrStatus fr_lderive_interpret(FrLderivation *derivation, FrLtake take, const boo
     read_string(&reading);
     fr_lindex_clear(&reading.index);
     g_array_unref(reading.scratch);
-    machine->random = seed != FR_NONE ? kept : machine->random;
+    g_free(reading.random);
+    g_free(reading.is_seeded);
     fr_linstance_enter(derivation, instance);
-    fr_lderive_report(derivation, machine, context);
+    fr_lderive_report(derivation, &derivation->machine, context);
     FrStatus checked = fr_lderive_check(derivation, context);
     return MAX(reading.status, checked);
 }

@@ -87,44 +87,60 @@ static unsigned symbol_at(const FrLindex *index, uint32_t module) {
     return fr_lhead_symbol(index->words[index->at[module]]);
 }
 
+/// The first module from `at` on that closes the level; the end of the string if none does.
+static uint32_t level_end(const FrLindex *index, uint32_t at) {
+    while (at < index->modules && symbol_at(index, at) != ']') {
+        at = symbol_at(index, at) == '[' ? index->partner[at] : at;
+        at = at == FR_NONE ? index->modules : at + 1;
+    }
+    return at;
+}
+
+/// The module that a pattern is compared with: branches it does not name are passed over, and what
+/// is ignored before them. FR_NONE: there is none. In a ring the end leads to the beginning.
+static uint32_t seek_right(const FrLmatcher *matcher, const FrLindex *index, uint32_t at,
+                           unsigned wanted) {
+    bool may_wrap = matcher->unit->is_ring;
+    for (;;) {
+        if (at >= index->modules) {
+            if (!may_wrap || index->modules == 0) {
+                return FR_NONE;
+            }
+            may_wrap = false;
+            at = 0;
+        }
+        unsigned symbol = symbol_at(index, at);
+        if (matcher->unit->is_ignored[symbol]) {
+            at++;
+        } else if (symbol == '[' && wanted != '[') {
+            at = index->partner[at];
+            if (at == FR_NONE) {
+                return FR_NONE;
+            }
+            at++;
+        } else {
+            return at;
+        }
+    }
+}
+
 static bool match_right(const FrLmatcher *matcher, const FrLproduction *production,
                         const FrLindex *index, uint32_t at) {
     const FrLpattern *pattern = matcher->patterns + production->right.first;
-    const bool *is_ignored = matcher->unit->is_ignored;
-    bool may_wrap = matcher->unit->is_ring;
     for (uint32_t i = 0; i < production->right.count; i++) {
         unsigned wanted = fr_lhead_symbol(pattern[i].key);
-        for (;; at++) {
-            if (at >= index->modules) {
-                if (!may_wrap) {
-                    // The end of a level is reached by '=' only.
-                    return wanted == '=' && i + 1 == production->right.count;
-                }
-                may_wrap = false;
-                at = 0;
-            }
-            unsigned symbol = symbol_at(index, at);
-            if (is_ignored[symbol]) {
-                continue;
-            }
-            if (wanted == '=' ? symbol == ']' : symbol != '[' || wanted == '[') {
-                break;
-            }
-            if (symbol == '[') {
-                at = index->partner[at];
-                if (at == FR_NONE) {
-                    return false;
-                }
-            }
-        }
-        const uint32_t *module = index->words + index->at[at];
         if (wanted == '=') {
+            at = level_end(index, at);
             continue;
         }
+        at = seek_right(matcher, index, at, wanted);
+        if (at == FR_NONE) {
+            return false;
+        }
+        const uint32_t *module = index->words + index->at[at++];
         if ((*module & FR_LHEAD_KEY) != pattern[i].key || !bind(matcher, &pattern[i], module)) {
             return false;
         }
-        at++;
     }
     return true;
 }
@@ -133,8 +149,8 @@ static bool match_left(const FrLmatcher *matcher, const FrLproduction *productio
                        const FrLindex *index, uint32_t at) {
     const FrLpattern *pattern = matcher->patterns + production->left.first;
     const bool *is_ignored = matcher->unit->is_ignored;
-    bool may_wrap = matcher->unit->is_ring;
     for (uint32_t i = production->left.count; i-- > 0;) {
+        bool may_wrap = matcher->unit->is_ring;
         for (;;) {
             if (at == 0) {
                 if (!may_wrap || index->modules == 0) {
@@ -201,39 +217,34 @@ const FrLproduction *fr_lmatch_first(const FrLmatcher *matcher, const FrLsection
     return NULL;
 }
 
+// The sums are single precision, as in cpfg; rounding may leave all productions untaken.
 const FrLproduction *fr_lmatch_random(const FrLmatcher *matcher, const FrLsection *section,
                                       const uint32_t *here, const uint32_t *end,
                                       const FrLsite *site, double draw, uint32_t *taken) {
     unsigned symbol = fr_lhead_symbol(*here);
-    uint32_t found[MOST_CANDIDATES], count = 0, words = 0;
-    double weights[MOST_CANDIDATES], total = 0;
+    uint32_t found[MOST_CANDIDATES], words[MOST_CANDIDATES], count = 0;
+    float weights[MOST_CANDIDATES], total = 0;
     for (uint32_t i = section->start[symbol]; i < section->start[symbol + 1]; i++) {
         const FrLproduction *production = matcher->productions + section->sorted[i];
-        words = match(matcher, production, here, end, site);
-        if (words > 0 && count < MOST_CANDIDATES) {
-            double weight = production->weight == FR_NONE
-                                ? 1
-                                : fr_lmachine_run(matcher->machine, production->weight);
-            weights[count] = weight > 0 ? weight : 0;
+        uint32_t matched = match(matcher, production, here, end, site);
+        if (matched > 0 && count < MOST_CANDIDATES) {
+            weights[count] = production->weight == FR_NONE
+                                 ? 1
+                                 : (float)fr_lmachine_run(matcher->machine, production->weight);
             total += weights[count];
+            words[count] = matched;
             found[count++] = section->sorted[i];
         }
     }
-    if (count == 0 || !(total > 0)) {
-        return NULL;
-    }
-    double rest = total * draw;
-    uint32_t chosen = 0;
-    for (; chosen + 1 < count; chosen++) {
-        rest -= weights[chosen];
+    float rest = (float)((double)total * draw);
+    for (uint32_t i = 0; i < count; i++) {
+        rest -= weights[i];
         if (rest <= 0) {
-            break;
+            *taken = words[i];
+            return matcher->productions + found[i];
         }
     }
-    const FrLproduction *production = matcher->productions + found[chosen];
-    *taken = match_strict(matcher, production, here, end);
-    fr_lmatch_bind(matcher, production, here, end, site);
-    return production;
+    return NULL;
 }
 
 void fr_lmatch_bind(const FrLmatcher *matcher, const FrLproduction *production,

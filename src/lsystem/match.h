@@ -37,7 +37,8 @@ FrLmatcher fr_lmatcher(const FrLsystem *system, FrLmachine *machine, const FrLun
 const FrLproduction *fr_lmatch_first(const FrLmatcher *matcher, const FrLsection *section,
                                      const uint32_t *here, const uint32_t *end, const FrLsite *site,
                                      uint32_t *taken);
-/// One of all that apply, by their weights; `draw` is uniform in [0, 1).
+/// One of all that apply, by their weights; `draw` is uniform in [0, 1). Its parameters are bound,
+/// and what its block changed is kept.
 const FrLproduction *fr_lmatch_random(const FrLmatcher *matcher, const FrLsection *section,
                                       const uint32_t *here, const uint32_t *end,
                                       const FrLsite *site, double draw, uint32_t *taken);

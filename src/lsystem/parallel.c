@@ -226,7 +226,7 @@ FrStatus fr_lderive_parallel(FrLderivation *derivation, const FrContext *context
                  .section = &instance->unit->sections[FR_LDERIVE],
                  .from = derivation->string,
                  .to = derivation->other,
-                 .random = instance->random};
+                 .random = derivation->random};
     int threads = fr_pool_threads(context->pool);
     fr_linstance_enter(derivation, instance);
     step.has_index = step.section->has_context;
@@ -248,7 +248,9 @@ FrStatus fr_lderive_parallel(FrLderivation *derivation, const FrContext *context
     g_free(step.pieces);
     g_free(step.marks);
     if (status == FR_OK) {
-        instance->random = fr_lrandom_skip(instance->random, step.from->modules);
+        derivation->random = step.unit->is_stochastic
+                                 ? fr_lrandom_skip(derivation->random, step.from->modules)
+                                 : derivation->random;
         derivation->other = derivation->string;
         derivation->string = step.to;
     }

@@ -139,6 +139,11 @@ static void end_line(FrLparser *parser) {
     fr_lparse_skip_line(parser);
 }
 
+/// `endlsystem`, with either part in capitals.
+static bool accept_end(FrLparser *parser) {
+    return fr_lparse_keyword(parser, "endlsystem") || fr_lparse_keyword(parser, "endLsystem");
+}
+
 static void read_symbols(FrLparser *parser, bool is_consider) {
     FrLunit *unit = parser->unit;
     for (int symbol = 0; symbol < FR_LSYMBOLS; symbol++) {
@@ -226,7 +231,7 @@ static bool read_head(FrLparser *parser) {
         } else if (fr_lparse_keyword(parser, "axiom:")) {
             fr_lparse_axiom(parser);
             return true;
-        } else if (fr_lparse_keyword(parser, "endlsystem")) {
+        } else if (accept_end(parser)) {
             fr_lparse_error(parser, parser->at - 10, parser->at, "syntax",
                             "this L-system has no axiom:");
             return false;
@@ -258,7 +263,7 @@ static void read_sections(FrLparser *parser) {
         } else if (c == '\0') {
             fr_lparse_error(parser, parser->at, parser->at, "syntax", "there is no endlsystem");
             return;
-        } else if (fr_lparse_keyword(parser, "endlsystem")) {
+        } else if (accept_end(parser)) {
             end_line(parser);
             return;
         } else if (read_heading(parser, "decomposition", &unit->sections[FR_LDECOMPOSE])) {

@@ -52,18 +52,19 @@ void fr_lmachine_fault(FrLmachine *machine, const char *code, uint32_t place) {
     }
 }
 
-/// The variable of an element. What is out of range becomes the nearest that is in it.
+/// The variable of an element. What is out of range becomes the nearest that is in it; fractions
+/// count until the place is known.
 static uint32_t element(FrLmachine *machine, const FrLcode *code, const double *indices,
                         uint32_t place) {
     const FrLarray *array = &g_array_index(machine->system->arrays, FrLarray, code->a);
-    uint64_t offset = 0;
+    double offset = 0;
     for (uint32_t d = 0; d < code->n; d++) {
-        double index = trunc(indices[d]);
+        double index = indices[d];
         if (!(index >= 0 && index < array->dimensions[d])) {
             fr_lmachine_fault(machine, "index-range", place);
             index = index > 0 ? array->dimensions[d] - 1 : 0;
         }
-        offset = offset * array->dimensions[d] + (uint64_t)index;
+        offset = offset * array->dimensions[d] + index;
     }
     return array->first + (uint32_t)offset;
 }

@@ -60,8 +60,9 @@ static inline double fr_lrandom_next(uint64_t *state) {
 }
 /// The state after `count` more numbers.
 uint64_t fr_lrandom_skip(uint64_t state, uint64_t count);
+/// Seed 0 leaves the stream as it is before any seeding.
 static inline uint64_t fr_lrandom_seed_a(int64_t seed) {
-    return ((uint64_t)seed & 0xFFFF) | UINT64_C(155) << 32;
+    return seed == 0 ? 0 : ((uint64_t)seed & 0xFFFF) | UINT64_C(155) << 32;
 }
 static inline uint64_t fr_lrandom_seed_b(int64_t seed) {
     return FR_LSTREAM_START | ((uint64_t)seed & 0xFFFFFFFF) << 16;
