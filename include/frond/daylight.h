@@ -1,5 +1,6 @@
 /// @file daylight.h
-/// The sun by date and latitude, its path over a day, and the lamps that a day of sun and sky makes.
+/// The sun by date and latitude, its path over a day, and the lamps that a day of sun and sky
+/// makes.
 ///
 /// The world has x to the east, y to the north, z up. Azimuths count from north clockwise.
 #pragma once
@@ -32,9 +33,9 @@ FR_API size_t fr_light_sun_places(FrSunPath path, size_t count, vec3s *direction
 /// What the sun brings to a square metre that faces it under a clear sky, kW; 0 below the horizon.
 FR_API double fr_light_sunlight(double elevation);
 
-/// The lamps of the mean hour of a day, in kW per square metre: suns along the path and a sky, times
-/// their strengths. Under an overcast sky there are no suns; a clear one has as many skies as suns,
-/// each brightest about its own. `count` is how many places the sun has. Writes at most 2 `count`
-/// lamps, and one more where the sun does not rise; returns how many.
+/// The lamps of the mean hour of a day, in kW per square metre: suns along the path and a sky,
+/// times their strengths. Under an overcast sky there are no suns; a clear one has as many skies as
+/// suns, each brightest about its own. `count` is how many places the sun has. Writes at most 2
+/// `count` lamps, and one more where the sun does not rise; returns how many.
 FR_API size_t fr_light_day(FrSkyKind sky, FrSunPath path, size_t count, double sun_strength,
                            double sky_strength, FrLamp *lamps);

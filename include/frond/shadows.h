@@ -7,8 +7,8 @@
 /// holds 30 000 shadows of its own and more.
 #pragma once
 
-#include "frond/light.h"
 #include "frond/digest.h"
+#include "frond/light.h"
 
 typedef enum FrShadowForm {
     FR_SHADOWS_SUBTRACT, ///< layer q below takes a·b^−q from the light (the paper)
@@ -18,11 +18,11 @@ typedef enum FrShadowForm {
 
 typedef struct FrShadowSettings {
     FrShadowForm form;
-    double a, b;   ///< strength, > 0, and how fast it fades, > 1
-    double full;   ///< FR_SHADOWS_SUBTRACT: light of a place without shadow, > 0
-    int depth;     ///< layers of the pyramid, 1 to 64
-    int spread;    ///< voxels by which each layer is wider than the one above, 0 to 4
-    double cell;   ///< width of a voxel, m
+    double a, b;      ///< strength, > 0, and how fast it fades, > 1
+    double full;      ///< FR_SHADOWS_SUBTRACT: light of a place without shadow, > 0
+    int depth;        ///< layers of the pyramid, 1 to 64
+    int spread;       ///< voxels by which each layer is wider than the one above, 0 to 4
+    double cell;      ///< width of a voxel, m
     double origin[3]; ///< lowest corner, m
     int cells[3];     ///< voxels along x, y, z, ≥ 1
 } FrShadowSettings;
@@ -39,7 +39,8 @@ typedef struct FrShadows FrShadows;
 /// a = 0.441, b = 6.31, depth 6, spread 1, multiplied, 201³ voxels over 201 m about the origin and
 /// from it upwards.
 FR_API FrShadowSettings fr_shadows_default(void);
-/// Unshaded voxels. FR_ERR_LIMIT if they would take more than FrLimits.bytes; then *shadows is NULL.
+/// Unshaded voxels. FR_ERR_LIMIT if they would take more than FrLimits.bytes; then *shadows is
+/// NULL.
 FR_API FR_MUST_USE FrStatus fr_shadows_new(const FrShadowSettings *settings,
                                            const FrContext *context, FrShadows **shadows);
 FR_API void fr_shadows_free(FrShadows *shadows);
@@ -57,7 +58,7 @@ FR_API FrDigest fr_shadows_digest(const FrShadows *shadows);
 
 typedef struct FrShadowLightSettings {
     FrShadowForm form;
-    double a, b;  ///< as of FrShadowSettings
+    double a, b; ///< as of FrShadowSettings
     double full;
     int64_t depth;
     double cell;   ///< m; made wider where the scene would need more than `cells`
@@ -67,5 +68,6 @@ typedef struct FrShadowLightSettings {
 /// The constants of fr_shadows_default(), voxels of 0.2 m, at most 8 million of them.
 FR_API FrShadowLightSettings fr_shadow_light_default(void);
 /// A backend of shadow voxels. Surfaces cast a shadow for every cell² of their area in a voxel, at
-/// least one; lamps are not asked, light falls from above. Confidence is how even the slope is.
+/// least one; lamps are not asked, light falls from above. Confidence grows with the slope; where
+/// nothing shades it is 1.
 FR_API FrLight *fr_shadow_light_new(const FrShadowLightSettings *settings);

@@ -67,5 +67,8 @@ FR_API FR_MUST_USE FrStatus fr_skin_shape(const FrPlant *plant, uint32_t shape,
                                           const FrSkinParams *params, FrUpAxis up,
                                           const FrContext *context, FrMesh **mesh);
 FR_API void fr_mesh_free(FrMesh *mesh);
+/// Picture coordinates at the barycentric (u, v) of a triangle of a part.
+FR_API void fr_mesh_uv(const FrMesh *mesh, uint32_t part, uint32_t triangle, float u, float v,
+                       float uv[2]);
 /// Digest of vertices, indices and parts.
 FR_API FrDigest fr_mesh_digest(const FrMesh *mesh);

@@ -10,10 +10,10 @@
 #include "frond/light.h"
 
 typedef struct FrSkyViewSettings {
-    int64_t count;    ///< m: suns are a view each, the sky has the rest and at least one, 1 to 4096
-    bool is_even;     ///< every view of sun and sky counts the same: the intensity is n / m
-    bool is_mean;     ///< the direction is the mean of what is seen, not the brightest spot
-    float near;       ///< m: what is nearer to a point does not shade it, its own stem above all
+    int64_t count; ///< m: suns are a view each, the sky has the rest and at least one, 1 to 4096
+    bool is_even;  ///< every view of sun and sky counts the same: the intensity is n / m
+    bool is_mean;  ///< the direction is the mean of what is seen, not the brightest spot
+    float near;    ///< m: what is nearer to a point does not shade it, its own stem above all
 } FrSkyViewSettings;
 
 /// 20 views, weighed by their light, the brightest spot, 0.02 m.

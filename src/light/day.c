@@ -1,5 +1,5 @@
-// A day's light as lamps: the sun at evenly spread times, each for its share of the day, and the sky.
-// A clear sky brings to level ground a tenth of what its sun brings to a surface that faces it
+// A day's light as lamps: the sun at evenly spread times, each for its share of the day, and the
+// sky. A clear sky brings to level ground a tenth of what its sun brings to a surface that faces it
 // (Meinel, Meinel 1976); one without visible sun as much as a tenth of the sun in the zenith, which
 // falls in from everywhere.
 #include "frond/daylight.h"

@@ -8,7 +8,7 @@
 #include <math.h>
 
 enum {
-    PIECES = 2,        ///< of a voxel's width along a triangle's side
+    PIECES = 4,        ///< of a voxel's width along a triangle's side
     MOST_PIECES = 512, ///< along the side of one triangle
     AREA_STEPS = 1024, ///< in which area is counted, of the face of a voxel
     MOST_SHADOWS = 16, ///< that a voxel casts
@@ -114,8 +114,8 @@ static void add_piece(const Cover *cover, vec3s at, uint32_t area) {
         }
         index = index * (size_t)grid->cells[axis] + (size_t)cell;
     }
-    cover->area[index] = (uint32_t)MIN((uint64_t)cover->area[index] + area,
-                                       (uint64_t)MOST_SHADOWS * AREA_STEPS);
+    cover->area[index] =
+        (uint32_t)MIN((uint64_t)cover->area[index] + area, (uint64_t)MOST_SHADOWS * AREA_STEPS);
 }
 
 static void cover_triangle(void *data, const vec3s corners[3]) {
@@ -153,7 +153,8 @@ static GArray *casting_points(const FrShadowSettings *grid, const uint32_t *area
                 vec3s at = {{(float)(grid->origin[0] + (x + 0.5) * grid->cell),
                              (float)(grid->origin[1] + (y + 0.5) * grid->cell),
                              (float)(grid->origin[2] + (z + 0.5) * grid->cell)}};
-                uint32_t shadows = (area[index] + AREA_STEPS - 1) / AREA_STEPS;
+                uint32_t shadows =
+                    area[index] == 0 ? 0 : MAX((area[index] + AREA_STEPS / 2) / AREA_STEPS, 1);
                 for (uint32_t i = 0; i < shadows; i++) {
                     g_array_append_val(points, at);
                 }

@@ -3,7 +3,6 @@
 // −log2(1 − a·b^−d).
 #include "frond/shadows.h"
 
-
 #include <cglm/struct.h>
 #include <math.h>
 
@@ -13,8 +12,8 @@ enum { LAYERS_A_CHUNK = 8 };
 
 struct FrShadows {
     FrShadowSettings settings;
-    uint32_t *shade; ///< by voxel, x fastest, then y, then z
-    int *reach;      ///< half width of each layer
+    uint32_t *shade;  ///< by voxel, x fastest, then y, then z
+    int *reach;       ///< half width of each layer
     uint32_t **table; ///< what a point takes in each layer: (2 reach + 1)²
 };
 
@@ -53,8 +52,7 @@ static void make_tables(FrShadows *shadows) {
         shadows->reach[layer] = reach;
         shadows->table[layer] = g_new(uint32_t, width * width);
         for (int i = 0; i < width * width; i++) {
-            shadows->table[layer][i] =
-                taken(settings, layer, i % width - reach, i / width - reach);
+            shadows->table[layer][i] = taken(settings, layer, i % width - reach, i / width - reach);
         }
     }
 }
@@ -124,9 +122,10 @@ static void cast_layer(const Cast *cast, const int voxel[3], int z) {
     int front = MAX(voxel[1] - reach, 0);
     int back = MIN(voxel[1] + reach, cells[1] - 1);
     for (int y = front; y <= back && left <= right; y++) {
-        uint32_t *row = shadows->shade + ((size_t)z * (size_t)cells[1] + (size_t)y) * (size_t)cells[0];
-        const uint32_t *table = shadows->table[layer] +
-                                (y - voxel[1] + reach) * (2 * reach + 1) - voxel[0] + reach;
+        uint32_t *row =
+            shadows->shade + ((size_t)z * (size_t)cells[1] + (size_t)y) * (size_t)cells[0];
+        const uint32_t *table =
+            shadows->table[layer] + (y - voxel[1] + reach) * (2 * reach + 1) - voxel[0] + reach;
         for (int x = left; x <= right; x++) {
             row[x] += cast->is_taken ? 0U - table[x] : table[x];
         }
@@ -186,8 +185,8 @@ static double light_at(const FrShadows *shadows, const double place[3]) {
     double sum = 0;
     for (int corner = 0; corner < 8; corner++) {
         int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
-        double weight = (x ? part[0] : 1 - part[0]) * (y ? part[1] : 1 - part[1]) *
-                        (z ? part[2] : 1 - part[2]);
+        double weight =
+            (x ? part[0] : 1 - part[0]) * (y ? part[1] : 1 - part[1]) * (z ? part[2] : 1 - part[2]);
         sum += weight * voxel_light(shadows, low[0] + x, low[1] + y, low[2] + z);
     }
     return sum;
@@ -197,8 +196,7 @@ FrShadowSample fr_shadows_at(const FrShadows *shadows, vec3s point, double radiu
     const FrShadowSettings *settings = &shadows->settings;
     double place[3];
     for (int axis = 0; axis < 3; axis++) {
-        place[axis] =
-            ((double)point.raw[axis] - settings->origin[axis]) / settings->cell - 0.5;
+        place[axis] = ((double)point.raw[axis] - settings->origin[axis]) / settings->cell - 0.5;
     }
     vec3s slope;
     for (int axis = 0; axis < 3; axis++) {

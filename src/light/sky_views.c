@@ -10,8 +10,8 @@
 #include <stdatomic.h>
 
 enum {
-    AREA_POINTS = 4,     ///< along each side of an area lamp
-    SURFACES = 64,       ///< that light may come through
+    AREA_POINTS = 4, ///< along each side of an area lamp
+    SURFACES = 64,   ///< that light may come through
     POINTS_A_CHUNK = 16,
 };
 
@@ -23,8 +23,8 @@ typedef struct View {
     vec3s at;
     float weight; ///< fluence, for a lamp at a distance of 1 m
     bool is_far;
-    float cosine;  ///< lamps: half the opening of the cone; 0 half a sphere; −1 all around
-    vec3s axis;    ///< lamps: of the cone, or of the lit side
+    float cosine; ///< lamps: half the opening of the cone; 0 half a sphere; −1 all around
+    vec3s axis;   ///< lamps: of the cone, or of the lit side
     bool is_matt; ///< lamps: by Lambert's law
 } View;
 
@@ -32,6 +32,8 @@ typedef struct SkyViews {
     FrLight light;
     FrSkyViewSettings settings;
     FrRays *rays;
+    FrMaskFn mask;
+    void *mask_user;
     FrLightMesh *meshes; ///< copies of the scene's; what they point to is borrowed
     GArray *views;       ///< View
     float open;          ///< fluence under open sky; 0: no sun, no sky
@@ -72,7 +74,8 @@ static void add_lamp(SkyViews *sky, const FrLamp *lamp) {
                              .weight = power,
                              .is_far = true});
     } else if (lamp->kind == FR_LAMP_POINT) {
-        add_view(sky, (View){.at = lamp->position, .weight = power / (float)(4 * G_PI), .cosine = -1});
+        add_view(sky,
+                 (View){.at = lamp->position, .weight = power / (float)(4 * G_PI), .cosine = -1});
     } else if (lamp->kind == FR_LAMP_SPOT) {
         float cosine = cosf(lamp->angle);
         add_view(sky, (View){.at = lamp->position,
@@ -95,8 +98,7 @@ static double zenith_of(const FrLamp *lamp) {
     for (int i = 0; i < RINGS * SECTORS; i++) {
         double height = (i / SECTORS + 0.5) / RINGS, side = sqrt(1 - height * height);
         double turn = 2 * G_PI * (i % SECTORS + 0.5) / SECTORS;
-        vec3s direction = {
-            {(float)(side * cos(turn)), (float)(side * sin(turn)), (float)height}};
+        vec3s direction = {{(float)(side * cos(turn)), (float)(side * sin(turn)), (float)height}};
         sum += height * fr_lamp_sky_brightness(lamp, direction);
     }
     return lamp->power * RINGS * SECTORS / (2 * G_PI * sum);
@@ -163,21 +165,34 @@ static void clear_scene(SkyViews *sky) {
     sky->meshes = NULL;
 }
 
+/// Asked by rays, from any thread.
+static bool is_hole(void *user, uint32_t mesh, uint32_t part, uint32_t triangle, float u, float v) {
+    const SkyViews *sky = user;
+    uint32_t mask = sky->meshes[mesh].materials[part].mask;
+    if (mask == 0) {
+        return false;
+    }
+    float uv[2];
+    fr_mesh_uv(sky->meshes[mesh].mesh, part, triangle, u, v, uv);
+    return sky->mask(sky->mask_user, mask, uv[0], uv[1]);
+}
+
 static FrStatus set_scene(FrLight *light, const FrLightScene *scene, const FrContext *context) {
     SkyViews *sky = (SkyViews *)light;
     (void)context;
     clear_scene(sky);
     make_views(sky, scene);
     sky->meshes = g_memdup2(scene->meshes, scene->mesh_count * sizeof *scene->meshes);
-    sky->rays = fr_rays_new(scene->hole, scene->hole_user);
+    sky->mask = scene->mask;
+    sky->mask_user = scene->mask_user;
+    sky->rays = fr_rays_new(scene->mask != NULL ? is_hole : NULL, sky);
     sky->has_translucent = false;
     for (uint32_t i = 0; i < scene->mesh_count; i++) {
         const FrLightMesh *mesh = &scene->meshes[i];
         fr_rays_add_mesh(sky->rays, mesh->mesh);
         for (uint32_t part = 0; part < mesh->mesh->part_count; part++) {
             const FrLightMaterial *material = &mesh->materials[part];
-            sky->has_translucent |=
-                lets_through(&material->front) || lets_through(&material->back);
+            sky->has_translucent |= lets_through(&material->front) || lets_through(&material->back);
         }
     }
     for (uint32_t i = 0; i < scene->stand_count; i++) {
@@ -202,8 +217,8 @@ static float passes(const SkyViews *sky, vec3s point, vec3s direction, float far
             return left;
         }
         const FrLightMaterial *material = &sky->meshes[hit.mesh].materials[hit.part];
-        // Light comes the other way, so it arrives on the front of what we see the front of.
-        bool is_front = glms_vec3_dot(hit.normal, direction) < 0;
+        // Light comes towards us and arrives on the side that we do not see.
+        bool is_front = glms_vec3_dot(hit.normal, direction) > 0;
         const FrOptics *optics = is_front ? &material->front : &material->back;
         left *= optics->transmit_diffuse + optics->transmit_specular;
         near = hit.distance * (1 + 1e-5f) + 1e-6f;
@@ -281,8 +296,7 @@ static void answer_points(void *data, size_t begin, size_t end, int worker) {
 static FrStatus query_points(FrLight *light, const vec3s *points, size_t count,
                              const FrContext *context, FrLightAnswer *answers) {
     Query query = {(SkyViews *)light, points, answers};
-    fr_parallel_for(context->pool, count, POINTS_A_CHUNK, answer_points, &query,
-                    context->progress);
+    fr_parallel_for(context->pool, count, POINTS_A_CHUNK, answer_points, &query, context->progress);
     return fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : FR_OK;
 }
 
@@ -298,10 +312,8 @@ static void free_views(FrLight *light) {
 }
 
 FrLight *fr_sky_views_new(const FrSkyViewSettings *settings) {
-    static const FrLightBackend backend = {.set_scene = set_scene,
-                                           .query = query_points,
-                                           .stats = count_stats,
-                                           .free = free_views};
+    static const FrLightBackend backend = {
+        .set_scene = set_scene, .query = query_points, .stats = count_stats, .free = free_views};
     SkyViews *sky = g_new0(SkyViews, 1);
     sky->light.backend = &backend;
     sky->settings = *settings;

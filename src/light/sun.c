@@ -51,8 +51,7 @@ vec3s fr_light_sun_direction(double azimuth, double elevation) {
 }
 
 FrSunPath fr_light_sun_path(double latitude, double azimuth, double elevation) {
-    double sine =
-        sin(elevation) * sin(latitude) + cos(elevation) * cos(azimuth) * cos(latitude);
+    double sine = sin(elevation) * sin(latitude) + cos(elevation) * cos(azimuth) * cos(latitude);
     return (FrSunPath){.latitude = latitude, .declination = asin(fmin(fmax(sine, -1.0), 1.0))};
 }
 
@@ -68,13 +67,13 @@ size_t fr_light_sun_places(FrSunPath path, size_t count, vec3s *directions) {
         double hour = half_day * (2.0 * ((double)i + 0.5) / (double)count - 1.0);
         double place[3];
         place_of(path.latitude, path.declination, hour, place);
-        directions[i] =
-            (vec3s){{(float)place[0], (float)place[1], (float)fmax(place[2], 0.0)}};
+        directions[i] = (vec3s){{(float)place[0], (float)place[1], (float)fmax(place[2], 0.0)}};
     }
     return count;
 }
 
-/// How much air light passes, 1 from the zenith: Kasten, Young 1989, Revised Optical Air Mass Tables.
+/// How much air light passes, 1 from the zenith: Kasten, Young 1989, Revised Optical Air Mass
+/// Tables.
 static double air_mass(double elevation) {
     double degrees = elevation / DEGREE;
     return 1.0 / (sin(elevation) + 0.50572 * pow(degrees + 6.07995, -1.6364));

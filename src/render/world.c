@@ -15,14 +15,9 @@ static bool is_hole(void *user, uint32_t mesh, uint32_t part, uint32_t triangle,
     if (!look->has_holes) {
         return false;
     }
-    const FrMeshPart *range = &of->mesh->parts[part];
-    const FrVertex *vertices = of->mesh->vertices + range->first_vertex;
-    const uint32_t *corner = of->mesh->indices + range->first_index + 3 * (uint64_t)triangle;
-    const float *a = vertices[corner[0]].uv;
-    const float *b = vertices[corner[1]].uv;
-    const float *c = vertices[corner[2]].uv;
-    float w = 1.0f - u - v;
-    return fr_look_is_hole(look, w * a[0] + u * b[0] + v * c[0], w * a[1] + u * b[1] + v * c[1]);
+    float uv[2];
+    fr_mesh_uv(of->mesh, part, triangle, u, v, uv);
+    return fr_look_is_hole(look, uv[0], uv[1]);
 }
 
 FrWorld *fr_world_new(FrSky *sky, FrGround *ground) {

@@ -55,3 +55,16 @@ FrDigest fr_mesh_digest(const FrMesh *mesh) {
     }
     return digest;
 }
+
+void fr_mesh_uv(const FrMesh *mesh, uint32_t part, uint32_t triangle, float u, float v,
+                float uv[2]) {
+    const FrMeshPart *range = &mesh->parts[part];
+    const FrVertex *vertices = mesh->vertices + range->first_vertex;
+    const uint32_t *corner = mesh->indices + range->first_index + 3 * (uint64_t)triangle;
+    const float *a = vertices[corner[0]].uv;
+    const float *b = vertices[corner[1]].uv;
+    const float *c = vertices[corner[2]].uv;
+    float w = 1.0f - u - v;
+    uv[0] = w * a[0] + u * b[0] + v * c[0];
+    uv[1] = w * a[1] + u * b[1] + v * c[1];
+}

@@ -23,7 +23,8 @@ static FrShadows *make(FrShadowForm form, int cells, const FrContext *context) {
     return shadows;
 }
 
-/// Palubicki 2009, section 4.1: Δs = a b^−q in layer q, which is 2q + 1 wide; Q = max(C − s + a, 0).
+/// Palubicki 2009, section 4.1: Δs = a b^−q in layer q, which is 2q + 1 wide; Q = max(C − s + a,
+/// 0).
 static void test_paper(void) {
     FrContext context = fr_context_default();
     FrShadows *shadows = make(FR_SHADOWS_SUBTRACT, 32, &context);
@@ -147,8 +148,7 @@ int main(int argc, char **argv) {
                     test_program);
     g_test_add_func("/light/shadows/light comes from beside what shades", test_direction);
     g_test_add_func("/light/shadows/what was cast can be taken back exactly", test_exact);
-    g_test_add_func("/light/shadows/the bits are the same for any number of threads",
-                    test_threads);
+    g_test_add_func("/light/shadows/the bits are the same for any number of threads", test_threads);
     g_test_add_func("/light/shadows/points that are nowhere cast no shadow", test_far);
     g_test_add_func("/light/shadows/too many voxels are refused before memory is taken",
                     test_limit);
