@@ -58,10 +58,10 @@ static void test_plate(void) {
 /// side.
 static void test_wall(void) {
     Plate plate;
-    plate_init(&plate,
-               rectangle((vec3s){{1e-3f, -5000, -1}}, (vec3s){{0, 10000, 0}},
-                         (vec3s){{0, 0, 10000}}),
-               &even_sky, 1);
+    plate_init(
+        &plate,
+        rectangle((vec3s){{1e-3f, -5000, -1}}, (vec3s){{0, 10000, 0}}, (vec3s){{0, 0, 10000}}),
+        &even_sky, 1);
     FrSkyViewSettings settings = {.count = 20, .is_even = true, .near = 1e-4f};
     FrLightAnswer answer = ask(&plate.scene, &settings, (vec3s){{0, 0, 0}});
     g_assert_cmpfloat(answer.intensity, >=, 0.4f);
@@ -89,9 +89,8 @@ static void test_leaves(void) {
     materials[0].front.transmit_diffuse = 0.5f;
     meshes[0].materials = &materials[0];
     meshes[1].materials = &materials[1];
-    FrLightStand stands[2] = {
-        {0, glms_translate(glms_mat4_identity(), (vec3s){{0, 0, 1}})},
-        {1, glms_translate(glms_mat4_identity(), (vec3s){{0, 0, 2}})}};
+    FrLightStand stands[2] = {{0, glms_translate(glms_mat4_identity(), (vec3s){{0, 0, 1}})},
+                              {1, glms_translate(glms_mat4_identity(), (vec3s){{0, 0, 2}})}};
     FrLightScene scene = plate.scene;
     scene.meshes = meshes;
     scene.stands = stands;
@@ -111,9 +110,8 @@ static void test_leaves(void) {
 /// The brightest spot is the sun where it can be seen.
 static void test_brightest(void) {
     vec3s to_sun = glms_vec3_normalize((vec3s){{0.5f, 0.3f, 0.7f}});
-    FrLamp lamps[2] = {
-        {.kind = FR_LAMP_SUN, .power = 1, .direction = glms_vec3_negate(to_sun)},
-        {.kind = FR_LAMP_SKY, .power = 0.1, .sky = FR_SKY_CLEAR, .sun = to_sun}};
+    FrLamp lamps[2] = {{.kind = FR_LAMP_SUN, .power = 1, .direction = glms_vec3_negate(to_sun)},
+                       {.kind = FR_LAMP_SKY, .power = 0.1, .sky = FR_SKY_CLEAR, .sun = to_sun}};
     Plate plate;
     plate_init(&plate, level_plate(1, -5), lamps, 2);
     FrSkyViewSettings settings = fr_sky_views_default();
@@ -126,12 +124,15 @@ static void test_brightest(void) {
 /// Φ / 4πr² from a point, Φ / 2π(1 − cos α) r² within a cone, and Φ cos / πr² from a small area.
 static void test_lamps(void) {
     float side = 0.01f;
-    FrLamp lamps[3] = {
-        {.kind = FR_LAMP_POINT, .power = 10, .position = {{0, 0, 3}}},
-        {.kind = FR_LAMP_SPOT, .power = 10, .position = {{0, 0, 3}}, .direction = {{0, 0, -1}},
-         .angle = 0.5f},
-        {.kind = FR_LAMP_AREA, .power = 10, .position = {{-side / 2, -side / 2, 3}},
-         .side = {{{0, side, 0}}, {{side, 0, 0}}}}};
+    vec3s at = {{0, 0, 3}}, down = {{0, 0, -1}};
+    FrLamp lamps[3] = {{.kind = FR_LAMP_POINT, .power = 10, .position = at},
+                       {.kind = FR_LAMP_SPOT, .power = 10, .position = at},
+                       {.kind = FR_LAMP_AREA, .power = 10}};
+    lamps[1].direction = down;
+    lamps[1].angle = 0.5f;
+    lamps[2].position = (vec3s){{-side / 2, -side / 2, 3}};
+    lamps[2].side[0] = (vec3s){{0, side, 0}};
+    lamps[2].side[1] = (vec3s){{side, 0, 0}};
     double wanted[3] = {10 / (4 * G_PI * 9), 10 / (2 * G_PI * (1 - cos(0.5)) * 9), 10 / (G_PI * 9)};
     FrSkyViewSettings settings = fr_sky_views_default();
     for (int i = 0; i < 3; i++) {
