@@ -182,7 +182,8 @@ static void nest(const FrPlan *plan, uint32_t node, const FrInternode *internode
     if (forth < -0.5F) {
         // It turns back too far for that: a ring across itself, far enough down the parent.
         radius = MIN(collar->radius, 0.8F * collar->parent_radius);
-        centre = glms_vec3_muladds(facing, -1.2F * radius * sqrtf(1.0F - forth * forth), centre);
+        float sine = sqrtf(MAX(1.0F - forth * forth, 0.0F));
+        centre = glms_vec3_muladds(facing, -1.2F * radius * sine, centre);
         facing = collar->direction;
         depth = 0.0F;
     }

@@ -64,7 +64,9 @@ static void on_torus(const vec3s *size, double a, double b, vec3s *position, vec
     double x = 0.5 * size->x - thick_x + thick_x * ring_c;
     double y = 0.5 * size->y - thick_y + thick_y * ring_c;
     *position = (vec3s){{(float)(x * c), (float)(y * s), (float)(0.5 * size->z * (1.0 + ring_s))}};
-    // ∂/∂a × ∂/∂b
+    // ∂/∂a × ∂/∂b; where the hole is a point or a line, from beside it.
+    x = fmax(x, 1e-9 * size->x);
+    y = fmax(y, 1e-9 * size->y);
     double dx = -x * s, dy = y * c;
     double ex = -thick_x * ring_s * c, ey = -thick_y * ring_s * s, ez = 0.5 * size->z * ring_c;
     *normal = unit(dy * ez, -dx * ez, dx * ey - dy * ex);

@@ -170,6 +170,22 @@ static void test_size(void) {
     g_assert_cmpfloat(widest[2], >, 1.2F * widest[1]);
 }
 
+// Whatever way the stem points, where rounding makes the cosine between both less than −1 too.
+static void test_back(void) {
+    for (int i = 0; i < 64; i++) {
+        FrPlant *plant = fr_plant_new("back");
+        check_stem(plant, FR_NONE, 4, 4.0F, 0.2F, 0.1F,
+                   fr_rotation_about((vec3s){{1, 0, 0}}, 0.05F * (float)i), check_straight);
+        check_stem(plant, 3, 4, 1.0F, 0.05F, 0.02F,
+                   fr_rotation_about((vec3s){{1, 0, 0}}, (float)G_PI), check_straight);
+        FrSkinParams params = twelve_sides();
+        FrMesh *mesh = check_skin(plant, &params);
+        check_sound(mesh);
+        fr_mesh_free(mesh);
+        fr_plant_free(plant);
+    }
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/skin/collar/a branch begins on its parent's surface at any angle and width",
@@ -178,6 +194,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/collar/a branch at its parent's tip begins within a blunt end",
                     test_end);
     g_test_add_func("/skin/collar/a branch thicker than its parent begins round", test_thicker);
+    g_test_add_func("/skin/collar/a branch may turn straight back along its stem", test_back);
     g_test_add_func("/skin/collar/the size of a collar widens the base", test_size);
     return g_test_run();
 }

@@ -52,6 +52,22 @@ static void test_torus(void) {
     fr_plant_free(plant);
 }
 
+// Its hole is a point where it is half as thick as wide, and a line where it is flat besides.
+static void test_torus_without_hole(void) {
+    static const vec3s sizes[] = {{{1, 1, 1}}, {{2, 1, 4}}, {{5, 0, 3}}, {{0, 5, 3}}};
+    for (size_t i = 0; i < G_N_ELEMENTS(sizes); i++) {
+        FrPlant *plant = fr_plant_new("torus");
+        FrShape shape = {.kind = FR_SHAPE_TORUS, .size = sizes[i], .detail = 24};
+        FrMesh *mesh = check_shape(plant, &shape);
+        for (uint64_t v = 0; v < mesh->vertex_count; v++) {
+            g_assert_cmpfloat_with_epsilon(glms_vec3_norm(check_normal(&mesh->vertices[v])), 1.0F,
+                                           1e-3F);
+        }
+        fr_mesh_free(mesh);
+        fr_plant_free(plant);
+    }
+}
+
 static void test_flat(void) {
     static const struct {
         FrShapeKind kind;
@@ -97,6 +113,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/primitive/closed ones have Euler number two and their volume",
                     test_closed);
     g_test_add_func("/skin/primitive/a torus has Euler number zero and Pappus' volume", test_torus);
+    g_test_add_func("/skin/primitive/a torus without a hole has normals", test_torus_without_hole);
     g_test_add_func("/skin/primitive/flat ones face y and have their area", test_flat);
     g_test_add_func("/skin/primitive/normals are on the side that triangles face", test_facing);
     return g_test_run();
