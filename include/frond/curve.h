@@ -3,6 +3,7 @@
 /// frames.
 #pragma once
 
+#include "frond/digest.h"
 #include "frond/vector.h"
 
 #include <glib.h>
@@ -37,6 +38,8 @@ FR_API double fr_curve_integral(const FrCurve *curve, double x);
 FR_API size_t fr_curve_point_count(const FrCurve *curve);
 FR_API FrCurveKind fr_curve_kind(const FrCurve *curve);
 FR_API void fr_curve_point(const FrCurve *curve, size_t index, double point[2]);
+/// The digest of its kind and points, continued from `seed`: equal curves have equal ones.
+FR_API FrDigest fr_curve_digest(FrDigest seed, const FrCurve *curve);
 
 // ---- space curves -----------------------------------------------------------------------------
 

@@ -96,5 +96,8 @@ FR_API bool fr_expr_uses(const FrExpr *expr, FrVar var);
 FR_API bool fr_expr_is_random(const FrExpr *expr);
 /// The text it was compiled from.
 FR_API const char *fr_expr_text(const FrExpr *expr);
+/// The digest of what it computes, with the functions and curves it calls, continued from `seed`:
+/// where it is equal, so are all values. The text and its place are no part of it.
+FR_API FrDigest fr_expr_digest(FrDigest seed, const FrExpr *expr);
 /// Writes the warning for a fault; `what` says which parameter of which component.
 FR_API void fr_expr_report_fault(const FrExprFault *fault, const char *what, FrDiags *diags);

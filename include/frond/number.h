@@ -43,6 +43,8 @@ FR_API FrStatus fr_number_parse(FrNumber *number, const char *text, FrSpan span,
                                 double min, double max, const FrScope *scope, FrDiags *diags);
 /// Whether the value depends on the variable.
 FR_API bool fr_number_uses(const FrNumber *number, FrVar var);
+/// The digest of all that its values depend on, continued from `seed`.
+FR_API FrDigest fr_number_digest(FrDigest seed, const FrNumber *number);
 /// The slow path of fr_number_eval().
 FR_API double fr_number_eval_varying(const FrNumber *number, FrVars *vars, uint32_t purpose,
                                      FrExprFault *fault);

@@ -102,6 +102,9 @@ FR_API const FrParam *fr_params_find(const FrParamTable *table, const char *name
 /// Parses and stores one value. On a wrong value the field keeps its old one.
 FR_API FrStatus fr_params_set(const FrParamTable *table, void *object, const FrParam *param,
                               const char *text, FrSpan span, const FrScope *scope, FrDiags *diags);
+/// The digest of one value, continued from `seed`: where it is equal, so is all that is made of it.
+/// Curves and functions count by what they are, not by their names.
+FR_API FrDigest fr_param_digest(FrDigest seed, const FrParam *param, const void *object);
 /// The nearest row's attribute name for a misspelt one, or NULL. Free with g_free().
 FR_API char *fr_params_suggest(const FrParamTable *table, const char *name);
 /// The name as documents write it: `branching-angle`. Free with g_free().

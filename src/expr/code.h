@@ -68,6 +68,8 @@ typedef struct FrInstruction {
 /// Values the evaluation stack holds; checked while code is made.
 enum { FR_STACK_SIZE = 256 };
 
+_Static_assert(sizeof(FrInstruction) == 4, "instructions are hashed as bytes");
+
 struct FrExpr {
     gint references;
     FrInstruction *code;
@@ -75,7 +77,7 @@ struct FrExpr {
     double *constants;
     FrCurve **curves; ///< owned references
     FrSource **sources;
-    uint32_t curve_count, source_count;
+    uint32_t code_count, constant_count, curve_count, source_count;
     uint32_t variables; ///< bit FrVar is set if it is used
     bool is_random, uses_extra;
     char *text;

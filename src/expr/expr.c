@@ -75,6 +75,15 @@ const char *fr_expr_text(const FrExpr *expr) {
     return expr->text;
 }
 
+FrDigest fr_expr_digest(FrDigest seed, const FrExpr *expr) {
+    FrDigest digest = fr_digest(seed, expr->code, expr->code_count * sizeof *expr->code);
+    digest = fr_digest(digest, expr->constants, expr->constant_count * sizeof *expr->constants);
+    for (uint32_t i = 0; i < expr->curve_count; i++) {
+        digest = fr_curve_digest(digest, expr->curves[i]);
+    }
+    return digest;
+}
+
 void fr_expr_report_fault(const FrExprFault *fault, const char *what, FrDiags *diags) {
     if (fault->code == NULL) {
         return;

@@ -79,6 +79,16 @@ bool fr_factors_use(const FrFactors *factors, FrVar var) {
     return var == FR_VAR_time && factors->keys != NULL;
 }
 
+FrDigest fr_factors_digest(FrDigest seed, const FrFactors *factors) {
+    uint32_t head[2] = {factors->count, factors->keys != NULL};
+    FrDigest digest = fr_digest(seed, head, sizeof head);
+    for (uint32_t k = 0; k < factors->count; k++) {
+        uint32_t var = factors->of[k].var;
+        digest = fr_curve_digest(fr_digest(digest, &var, sizeof var), factors->of[k].curve);
+    }
+    return factors->keys != NULL ? fr_curve_digest(digest, factors->keys) : digest;
+}
+
 // ---- text -------------------------------------------------------------------------------------
 
 // A curve by name or points; NULL and an error also if there is none.

@@ -18,3 +18,5 @@ double fr_factors_product(const FrFactors *factors, const FrVars *vars, bool is_
 /// True if they are the same for every instance.
 bool fr_factors_are_fixed(const FrFactors *factors);
 bool fr_factors_use(const FrFactors *factors, FrVar var);
+/// Of all curves and what they are over.
+FrDigest fr_factors_digest(FrDigest seed, const FrFactors *factors);

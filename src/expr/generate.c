@@ -400,6 +400,8 @@ FrExpr *fr_code_generate(const FrTree *tree, FrDiags *diags) {
     emit(&g, FR_OP_END, 0, span_of(&frame, root));
     FrExpr *expr = g_new0(FrExpr, 1);
     expr->references = 1;
+    expr->code_count = g.code->len;
+    expr->constant_count = g.constants->len;
     expr->curve_count = g.curves->len;
     expr->source_count = g.sources->len;
     expr->variables = g.variables;

@@ -338,3 +338,13 @@ FrStatus fr_number_parse(FrNumber *number, const char *text, FrSpan span, double
     *number = parsed;
     return FR_OK;
 }
+
+FrDigest fr_number_digest(FrDigest seed, const FrNumber *number) {
+    double sizes[] = {number->from, number->to,  number->variance,
+                      number->scale, number->min, number->max,
+                      number->is_constant ? number->constant : 0};
+    uint32_t parts[] = {number->is_constant, number->function != NULL, number->factors != NULL};
+    FrDigest digest = fr_digest(fr_digest(seed, sizes, sizeof sizes), parts, sizeof parts);
+    digest = number->function != NULL ? fr_expr_digest(digest, number->function) : digest;
+    return number->factors != NULL ? fr_factors_digest(digest, number->factors) : digest;
+}

@@ -107,6 +107,45 @@ FrStatus fr_params_set(const FrParamTable *table, void *object, const FrParam *p
     return fr_value_parse(&value, param, field_of(object, param));
 }
 
+static FrDigest digest_text(FrDigest seed, const char *text) {
+    return text != NULL ? fr_digest(seed, text, strlen(text) + 1) : fr_digest(seed, "", 1);
+}
+
+FrDigest fr_param_digest(FrDigest seed, const FrParam *param, const void *object) {
+    const void *field = (const char *)object + param->offset;
+    switch (param->kind) {
+    case FR_PARAM_NUMBER:
+        return fr_number_digest(seed, field);
+    case FR_PARAM_REAL:
+        return fr_digest(seed, field, sizeof(double));
+    case FR_PARAM_INTEGER:
+        return fr_digest(seed, field, sizeof(int64_t));
+    case FR_PARAM_SWITCH:
+        return fr_digest(seed, field, sizeof(bool));
+    case FR_PARAM_CHOICE:
+        return fr_digest(seed, field, sizeof(int));
+    case FR_PARAM_VECTOR:
+    case FR_PARAM_COLOUR:
+        return fr_digest(seed, field, sizeof(vec3s));
+    case FR_PARAM_TEXT:
+        return digest_text(seed, *(char *const *)field);
+    case FR_PARAM_CURVE: {
+        const FrCurve *curve = *(FrCurve *const *)field;
+        return curve != NULL ? fr_curve_digest(seed, curve) : digest_text(seed, NULL);
+    }
+    case FR_PARAM_FORMULA: {
+        const FrExpr *formula = *(FrExpr *const *)field;
+        return formula != NULL ? fr_expr_digest(seed, formula) : digest_text(seed, NULL);
+    }
+    case FR_PARAM_POINTS: {
+        const FrPoints *points = field;
+        FrDigest digest = fr_digest(seed, &points->count, sizeof points->count);
+        return fr_digest(digest, points->at, points->count * sizeof *points->at);
+    }
+    }
+    return seed;
+}
+
 // ---- names ------------------------------------------------------------------------------------
 
 const FrParam *fr_params_find(const FrParamTable *table, const char *name) {

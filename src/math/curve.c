@@ -190,3 +190,9 @@ void fr_curve_point(const FrCurve *curve, size_t index, double point[2]) {
     point[0] = curve->knots[index].x;
     point[1] = curve->knots[index].y;
 }
+
+FrDigest fr_curve_digest(FrDigest seed, const FrCurve *curve) {
+    uint64_t head[2] = {curve->kind, curve->count};
+    FrDigest digest = fr_digest(seed, head, sizeof head);
+    return fr_digest(digest, curve->knots, curve->count * sizeof *curve->knots);
+}
