@@ -340,8 +340,12 @@ FrStatus fr_number_parse(FrNumber *number, const char *text, FrSpan span, double
 }
 
 FrDigest fr_number_digest(FrDigest seed, const FrNumber *number) {
-    double sizes[] = {number->from, number->to,  number->variance,
-                      number->scale, number->min, number->max,
+    double sizes[] = {number->from,
+                      number->to,
+                      number->variance,
+                      number->scale,
+                      number->min,
+                      number->max,
                       number->is_constant ? number->constant : 0};
     uint32_t parts[] = {number->is_constant, number->function != NULL, number->factors != NULL};
     FrDigest digest = fr_digest(fr_digest(seed, sizes, sizeof sizes), parts, sizeof parts);

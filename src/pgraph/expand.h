@@ -1,0 +1,29 @@
+/// @file expand.h
+/// One build on its way, for the files that share the work of expand.c.
+#pragma once
+
+#include "pgraph/instance.h"
+
+typedef struct FrBuild {
+    FrExpansion expansion;
+    const FrContext *context;
+    FrPgraphCounts *counts;
+    uint64_t instances;  ///< of all levels so far
+    uint64_t considered; ///< with those that flags left out
+} FrBuild;
+
+/// What a level will make.
+typedef struct FrLevelSums {
+    uint64_t children, considered, nodes, axes, organs, scopes, fields;
+    uint32_t most_children, most_nodes, most_organs; ///< rows that make the most of each
+} FrLevelSums;
+
+/// Sums what has been measured; `children` only when they have been counted.
+FrLevelSums fr_level_sum(const FrExpansion *expansion);
+/// Whether the plant with one level more keeps to the limits.
+FrStatus fr_build_check_level(const FrBuild *build, const FrLevelSums *sums);
+/// One limit, which the instance in `row` of the level meets first.
+FrStatus fr_build_check(const FrBuild *build, uint64_t wanted, uint64_t limit, const char *name,
+                        uint32_t row);
+/// A lower bound of instances from the numbers' ranges, so that absurd plants are refused at once.
+FrStatus fr_build_check_least(const FrBuild *build);
