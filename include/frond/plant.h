@@ -36,7 +36,7 @@ enum {
     FR_CONTINUES = 1 << 2,  ///< axis: begins at its bearer's tip and goes on in its direction, so
                             ///< skin joins the two without a collar or a cap
     FR_CUT = 1 << 3,        ///< axis: ends in a flat face, not in a point
-    FR_POINT_SETS = 1 << 4, ///< axis: rings of its profile exactly at its nodes, never thinned out
+    FR_POINT_SETS = 1 << 4, ///< axis: rings of its profile exactly at its base and nodes
 };
 
 /// Internodes. Node i runs from the tip of its parent (for the first node of an axis: from the

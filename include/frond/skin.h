@@ -6,7 +6,7 @@
 ///
 /// Bark: u goes around with a whole number of tiles; v is 0 at the base and falls towards the tip,
 /// so pictures stand upright; tiles shrink with the radius and keep their shape. An axis of point
-/// sets has its rings at the tips of its nodes and nothing before the first. From the second level
+/// sets has a ring at its base and at the tip of each node. From the second level
 /// of detail on ever fewer leaves are drawn, each enlarged (at most twice) to keep the whole area;
 /// the last of a component stays.
 #pragma once

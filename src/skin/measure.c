@@ -94,23 +94,22 @@ static bool thin_out(FrPlan *plan, const FrTube *tube, const FrCollar *collar, u
     return true;
 }
 
-// Every node of an axis of point sets has a ring, but for those that coincide with the one before.
+// The base and every node of an axis of point sets has a ring, but for those that coincide with the
+// one before.
 static void keep_point_sets(FrPlan *plan, FrTube *tube) {
     const FrNodes *nodes = &plan->plant->nodes;
-    uint32_t rings = 0, before = FR_NONE;
-    if (tube->start == FR_START_JOINT) {
-        before = tube->from;
-        rings = 1;
-    }
+    uint32_t rings = 1;
+    vec3s at = fr_tube_origin(plan, tube);
+    float radius = fr_tube_base_radius(plan, tube);
     for (uint32_t node = tube->first;; node = fr_plan_next(plan, node)) {
         float least = fr_smallest_length(nodes->position[node], 0.0F);
-        bool is_same = before != FR_NONE &&
-                       glms_vec3_distance(nodes->position[node], nodes->position[before]) < least &&
-                       fabsf(nodes->radius[node] - nodes->radius[before]) < least;
+        bool is_same = glms_vec3_distance(nodes->position[node], at) < least &&
+                       fabsf(nodes->radius[node] - radius) < least;
         plan->keep[node] = is_same ? 0 : FR_KEEP_RING;
         if (!is_same) {
             rings++;
-            before = node;
+            at = nodes->position[node];
+            radius = nodes->radius[node];
         }
         if (node == tube->last) {
             break;
@@ -172,10 +171,8 @@ static void count_triangles(const FrPlan *plan, FrTube *tube) {
 
 static void survey(const FrPlan *plan, const FrTube *tube, FrRun *run) {
     const FrNodes *nodes = &plan->plant->nodes;
-    if (!tube->is_point_sets) {
-        float base = fr_tube_base_radius(plan, tube);
-        run->radius = MAX(run->radius, base);
-    }
+    float base = fr_tube_base_radius(plan, tube);
+    run->radius = MAX(run->radius, base);
     for (uint32_t node = tube->first;; node = fr_plan_next(plan, node)) {
         run->radius = MAX(run->radius, nodes->radius[node]);
         run->follows_frames = run->follows_frames || nodes->flatness[node] != 1.0F;

@@ -151,9 +151,7 @@ void fr_nurbs_path(FrNurbsPath *path, const FrPlan *plan, const FrTube *tube,
         if (bearer != FR_NONE) {
             add_shared(path, plan, bearer, at, radius, (FrNurbsJoin)params->join);
         }
-        if (!tube->is_point_sets) {
-            fr_nurbs_path_add(path, at, radius, (double)nodes->flatness[tube->first], tube->first);
-        }
+        fr_nurbs_path_add(path, at, radius, (double)nodes->flatness[tube->first], tube->first);
         path->shared = bearer != FR_NONE && path->count == (is_smooth ? 3 : 2) ? path->count : 0;
     }
     for (uint32_t node = tube->first;; node = fr_plan_next(plan, node)) {

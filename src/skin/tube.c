@@ -96,9 +96,8 @@ static void sweep_stations(FrSweep *sweep) {
 }
 
 // A ring exactly in the frame of its node, whatever the angle.
-static void write_point_set(FrSweep *sweep, uint32_t node, bool has_band) {
-    FrStation station = fr_station_at(sweep, node, sweep->v);
-    versors frame = sweep->plan->plant->nodes.frame[node];
+static void write_point_set(FrSweep *sweep, FrStation station, bool has_band) {
+    versors frame = sweep->plan->plant->nodes.frame[station.node];
     float least = fr_smallest_length(station.at, sweep->run->radius);
     float radius = MAX(station.radius, least);
     FrRing ring = {
@@ -123,16 +122,16 @@ static void write_point_set(FrSweep *sweep, uint32_t node, bool has_band) {
 static void sweep_point_sets(FrSweep *sweep) {
     const FrTube *tube = sweep->tube;
     const FrVertex *first_rim = sweep->vertex;
-    bool has_band = tube->start == FR_START_JOINT;
-    FrRing first = {0};
-    if (has_band) {
-        write_point_set(sweep, tube->from, false);
-    }
+    // The first set is where the axis begins, or the last one of the axis it goes on from.
+    bool is_joint = tube->start == FR_START_JOINT;
+    FrStation base = fr_station_at(sweep, is_joint ? tube->from : tube->first, sweep->v);
+    base.at = fr_tube_origin(sweep->plan, tube);
+    base.radius = fr_tube_base_radius(sweep->plan, tube);
+    write_point_set(sweep, base, false);
+    FrRing first = sweep->ring;
     for (uint32_t node = tube->first;; node = fr_plan_next(sweep->plan, node)) {
         if (sweep->plan->keep[node]) {
-            write_point_set(sweep, node, has_band);
-            first = has_band ? first : sweep->ring;
-            has_band = true;
+            write_point_set(sweep, fr_station_at(sweep, node, sweep->v), true);
         }
         if (node == tube->last) {
             break;

@@ -242,8 +242,9 @@ static void test_damaged_picture(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/document/read/a document of version 1 gives its definitions",
-                    test_definitions);
+    g_test_add_func(
+        "/document/read/C37 a document of version 1 gives its definitions, views and sun",
+        test_definitions);
     g_test_add_func("/document/read/examples and presets have nothing wrong", test_shipped);
     g_test_add_func("/document/read/what is wrong is said at its place", test_wrong);
     g_test_add_func("/document/read/versions are minded", test_versions);

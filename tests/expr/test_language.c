@@ -296,8 +296,8 @@ static void test_bad_variable(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/expr/language/every example of the page is right", test_page);
-    g_test_add_func("/expr/language/every variable is found and told", test_every_variable);
+    g_test_add_func("/expr/language/F3 F4 every example of the page is right", test_page);
+    g_test_add_func("/expr/language/F4 every variable is found and told", test_every_variable);
     g_test_add_func("/expr/language/operands may be computed constant or variable",
                     test_operand_forms);
     g_test_add_func("/expr/language/errors and faults have their place", test_places);

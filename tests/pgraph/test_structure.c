@@ -229,7 +229,7 @@ int main(int argc, char **argv) {
     TEST("S2 a shared subgraph is made under both parents", shared_subgraph);
     TEST("S4 parents come before their children", parents_first);
     TEST("S5 a multiplier multiplies all that follows", multiplied_tail);
-    TEST("S6 figure 2 gives three chains of three", figure2);
+    TEST("S3 S6 figure 2 gives three chains of three", figure2);
     TEST("S7 chains differ by the multiplier's placement only",
          children_frames_differ_by_placement);
     TEST("L1 a child link leads to the tip", child_link_at_tip);

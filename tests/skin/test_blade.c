@@ -250,7 +250,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/blade/C9: curvature across keeps arc length", test_across);
     g_test_add_func("/skin/blade/twist turns the tip about the midrib", test_twist);
     g_test_add_func("/skin/blade/C12: the picture's tip is the blade's tip", test_texture);
-    g_test_add_func("/skin/blade/three segments make four triangles, eight if folded", test_frugal);
+    g_test_add_func("/skin/blade/C7 three segments make four triangles, eight if folded",
+                    test_frugal);
     g_test_add_func("/skin/blade/a blade begins no narrower than its petiole", test_base);
     g_test_add_func("/skin/blade/wild outlines and numbers give sound triangles", test_hostile);
     return g_test_run();

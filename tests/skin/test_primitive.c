@@ -110,7 +110,7 @@ static void test_facing(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/skin/primitive/closed ones have Euler number two and their volume",
+    g_test_add_func("/skin/primitive/B1 closed ones have Euler number two and their volume",
                     test_closed);
     g_test_add_func("/skin/primitive/a torus has Euler number zero and Pappus' volume", test_torus);
     g_test_add_func("/skin/primitive/a torus without a hole has normals", test_torus_without_hole);
