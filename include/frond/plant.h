@@ -37,6 +37,8 @@ enum {
                             ///< skin joins the two without a collar or a cap
     FR_CUT = 1 << 3,        ///< axis: ends in a flat face, not in a point
     FR_POINT_SETS = 1 << 4, ///< axis: rings of its profile exactly at its base and nodes
+    FR_FORK = 1 << 5,       ///< axis: arm of a fork: begins at its bearer's tip, out of its whole
+                            ///< thickness, while the bearer's axis goes on to another side
 };
 
 /// Internodes. Node i runs from the tip of its parent (for the first node of an axis: from the

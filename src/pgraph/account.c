@@ -35,7 +35,8 @@ FrLevelSums fr_level_sum(const FrExpansion *expansion) {
     FrLevelSums sums = {0};
     uint64_t most_children = 0;
     for (uint32_t row = 0; row < level->count; row++) {
-        uint64_t children = fr_instance_stage(expansion, row)->link_count;
+        uint64_t children =
+            (uint64_t)level->tips[row] * fr_instance_stage(expansion, row)->link_count;
         if (level->places[row] > 0) {
             children += (uint64_t)level->places[row] * multiplied_links(expansion, row);
         }

@@ -26,9 +26,10 @@ static void measure_range(void *data, size_t begin, size_t end, int worker) {
 
 static void count_range(void *data, size_t begin, size_t end, int worker) {
     const FrExpansion *expansion = data;
-    (void)worker;
+    FrEvaluator evaluator = {.faults = expansion->faults[worker]};
     for (size_t row = begin; row < end; row++) {
-        expansion->level.child_count[row] = fr_instance_children(expansion, (uint32_t)row);
+        expansion->level.child_count[row] =
+            fr_instance_children(expansion, (uint32_t)row, &evaluator);
     }
 }
 

@@ -78,7 +78,7 @@ void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLin
 /// Counts what the instance in `row` makes, except children that flags decide about.
 void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// Children that are made, by flags.
-uint32_t fr_instance_children(const FrExpansion *expansion, uint32_t row);
+uint32_t fr_instance_children(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// Makes it: the counts have become indices.
 void fr_instance_make(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
                       FrEvaluator *place);
@@ -104,6 +104,7 @@ void fr_make_revo(const FrExpansion *expansion, uint32_t row, FrEvaluator *evalu
 /// Writes the branches of a Tree's stem into the next level from `at` on; returns the row after.
 uint32_t fr_make_branches(const FrExpansion *expansion, uint32_t row, const FrStem *stem,
                           FrPose base, FrEvaluator *evaluator, FrEvaluator *place, uint32_t at);
-/// Makes the children that are not multiplied, from `at` on.
-void fr_make_single_children(const FrExpansion *expansion, uint32_t row, FrChild child,
-                             uint32_t at);
+/// Makes the children that are not multiplied, from `at` on; returns the row after. They have keys
+/// below the child's, or below the instance's where that is 0.
+uint32_t fr_make_single_children(const FrExpansion *expansion, uint32_t row, FrChild child,
+                                 uint32_t at);

@@ -40,6 +40,7 @@ enum {
     X(uint16_t, scopes)       /* how many scopes and fields are around it */                       \
     X(float, step)            /* m, most of an internode in them; 0: any */                        \
     X(uint32_t, axis)         /* for FR_JOINT_SET */                                               \
+    X(uint32_t, tips)         /* ends where single children stand */                               \
     X(uint32_t, places)       /* children of a multiplier, flagged-out ones counted */             \
     X(uint32_t, child_count)  /* then: index of the first child in the next level */               \
     X(uint32_t, node_count)   /* then: index of its first node in the plant */                     \

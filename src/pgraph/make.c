@@ -42,11 +42,12 @@ static bool goes_on(const FrPrepared *from, const FrPrepared *to, uint32_t axis)
            a->primitive == b->primitive;
 }
 
-void fr_make_single_children(const FrExpansion *expansion, uint32_t row, FrChild child,
-                             uint32_t at) {
+uint32_t fr_make_single_children(const FrExpansion *expansion, uint32_t row, FrChild child,
+                                 uint32_t at) {
     const FrLevel *level = &expansion->level;
     const FrStage *stage = fr_instance_stage(expansion, row);
     const FrPrepared *prepared = &expansion->prepared[stage->component];
+    FrKey key = child.key != 0 ? child.key : level->key[row];
     for (uint32_t k = 0; k < stage->link_count; k++) {
         const FrStageLink *link = fr_stage_link(expansion, stage, k);
         const FrPrepared *to = fr_stage_prepared(expansion, link->stage);
@@ -55,15 +56,15 @@ void fr_make_single_children(const FrExpansion *expansion, uint32_t row, FrChild
             continue;
         }
         FrChild one = child;
-        one.key = fr_is_global(prepared->kind)
-                      ? level->key[row]
-                      : fr_key_child(level->key[row], FR_NONE - (uint64_t)link->kind);
+        one.key =
+            fr_is_global(prepared->kind) ? key : fr_key_child(key, FR_NONE - (uint64_t)link->kind);
         if (goes_on(prepared, to, child.axis)) {
             one.joint = FR_JOINT_SET;
             child.axis = FR_NONE;
         }
         fr_child_write(expansion, row, link, &one, at++);
     }
+    return at;
 }
 
 uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t organ, FrPose pose,
@@ -262,65 +263,113 @@ static void make_string(const FrExpansion *expansion, uint32_t row, const FrStem
         base.scale = fr_stem_radius(stem, 0);
         fr_write_organ(expansion, row, organ++, base, stem->prepared->shape);
     }
-    for (uint32_t k = 0; k < stem->internodes; k++) {
-        float length = expansion->plant->nodes.length[first + k];
-        FrPose bead = {
-            .bearer = first + k,
-            .offset = {{0, 0, is_stepped ? 0 : -length}},
-            .rotation = is_stepped ? tip : identity,
-            .scale = fr_stem_radius(stem, (k + (is_stepped ? 1 : 0.5)) / stem->internodes),
-        };
-        fr_write_organ(expansion, row, organ++, bead, stem->prepared->shape);
+    FrLimb whole = fr_stem_whole(stem);
+    for (uint32_t l = 0; l < stem->limb_count; l++) {
+        const FrLimb *limb = fr_stem_limb(stem, &whole, l);
+        double each = (limb->end - limb->start) / limb->internodes;
+        for (uint32_t k = 0; k < limb->internodes; k++) {
+            uint32_t node = first + limb->first + k;
+            float length = expansion->plant->nodes.length[node];
+            double at = limb->start + (k + (is_stepped ? 1 : 0.5)) * each;
+            FrPose bead = {
+                .bearer = node,
+                .offset = {{0, 0, is_stepped ? 0 : -length}},
+                .rotation = is_stepped ? tip : identity,
+                .scale = fr_limb_radius(stem, limb, at),
+            };
+            fr_write_organ(expansion, row, organ++, bead, stem->prepared->shape);
+        }
     }
 }
 
-// Makes axis and nodes; returns the pose at the tip.
-static FrPose grow_stem(const FrExpansion *expansion, uint32_t row, const FrStem *stem, FrPose pose,
-                        FrEvaluator *evaluator) {
+// Makes the axis that a limb begins.
+static void begin_axis(const FrExpansion *expansion, uint32_t row, const FrStem *stem,
+                       const FrLimb *limb, FrPose pose) {
     const FrLevel *level = &expansion->level;
     const FrStemParams *params = stem->prepared->params;
-    FrPose tip = pose;
-    if (stem->internodes > 0) {
-        uint32_t axis = level->axis_count[row], first = level->node_count[row];
-        bool continues = level->joint[row] == FR_JOINT_TIP && !pose.is_turned_or_moved;
-        unsigned flags = (continues ? FR_CONTINUES : 0u) |
-                         (params->tip == FR_TIP_FLAT || stem->whole < 1 ? FR_CUT : 0u) |
-                         (params->course == FR_COURSE_STEPS ? FR_POINT_SETS : 0u) |
-                         (params->primitive > FR_PRIMITIVE_AREA ? FR_HIDDEN : 0u);
-        FrPose base = pose;
-        if (params->course == FR_COURSE_PATH) {
-            vec3s start = g_array_index(stem->prepared->path, vec3s, 0);
-            base = fr_pose_moved(pose, glms_vec3_scale(start, (float)pose.scale), identity);
+    bool is_base = limb->before == FR_NONE;
+    bool continues = is_base && level->joint[row] == FR_JOINT_TIP && !pose.is_turned_or_moved;
+    unsigned flags = (continues ? FR_CONTINUES : 0u) | (is_base ? 0u : FR_FORK) |
+                     (params->tip == FR_TIP_FLAT || stem->whole < 1 ? FR_CUT : 0u) |
+                     (params->course == FR_COURSE_STEPS ? FR_POINT_SETS : 0u) |
+                     (params->primitive > FR_PRIMITIVE_AREA ? FR_HIDDEN : 0u);
+    if (is_base && params->course == FR_COURSE_PATH) {
+        vec3s start = g_array_index(stem->prepared->path, vec3s, 0);
+        pose = fr_pose_moved(pose, glms_vec3_scale(start, (float)pose.scale), identity);
+    }
+    write_axis(expansion, row, level->axis_count[row] + limb->axis, pose,
+               fr_limb_radius(stem, limb, limb->start), (uint16_t)flags);
+    if (!is_base) {
+        FrAxes *axes = &expansion->plant->axes;
+        axes->path[level->axis_count[row] + limb->axis] = limb->key;
+    }
+}
+
+// Makes axes and nodes. `tips` receives the pose at the end of each limb.
+static void grow_stem(const FrExpansion *expansion, uint32_t row, const FrStem *stem, FrPose pose,
+                      FrEvaluator *evaluator, FrPose *tips) {
+    const FrLevel *level = &expansion->level;
+    FrFields fields = fr_instance_fields(expansion, row, evaluator);
+    FrLimb whole = fr_stem_whole(stem);
+    for (uint32_t l = 0; l < stem->limb_count; l++) {
+        const FrLimb *limb = fr_stem_limb(stem, &whole, l);
+        uint32_t first = level->node_count[row] + limb->first;
+        FrPose base = limb->before != FR_NONE ? tips[limb->before] : pose;
+        if (limb->internodes == 0) {
+            tips[l] = base;
+            continue;
         }
-        write_axis(expansion, row, axis, base, fr_stem_radius(stem, 0), (uint16_t)flags);
-        FrFields fields = fr_instance_fields(expansion, row, evaluator);
-        tip.rotation = fr_stem_grow(stem, expansion->plant, axis, first, pose.rotation, &fields);
-        tip.bearer = first + stem->internodes - 1;
-        tip.offset = nowhere;
+        if (limb->begins_axis) {
+            begin_axis(expansion, row, stem, limb, base);
+        }
+        tips[l] = base;
+        tips[l].rotation =
+            fr_limb_grow(stem, limb, expansion->plant, level->axis_count[row] + limb->axis, first,
+                         base.rotation, &fields);
+        tips[l].bearer = first + limb->internodes - 1;
+        tips[l].offset = nowhere;
     }
     if (stem->prepared->is_string) {
-        make_string(expansion, row, stem, pose, tip.rotation);
+        make_string(expansion, row, stem, pose, tips[0].rotation);
     }
-    return tip;
+}
+
+// What follows at the tips.
+static void make_tips(const FrExpansion *expansion, uint32_t row, const FrStem *stem,
+                      const FrPose *tips, uint32_t at) {
+    FrLimb whole = fr_stem_whole(stem);
+    for (uint32_t l = 0; l < stem->limb_count; l++) {
+        const FrLimb *limb = fr_stem_limb(stem, &whole, l);
+        if (limb->end < 1) {
+            continue;
+        }
+        FrChild child = fr_single_child(expansion, row, tips[l]);
+        child.key = limb->axis > 0 ? limb->key : 0;
+        child.joint = stem->internodes > 0 ? FR_JOINT_TIP : FR_JOINT_NONE;
+        child.x = 1;
+        child.parent_length = (float)(stem->length / tips[l].scale);
+        child.parent_radius = (float)(fr_limb_radius(stem, limb, 1) / tips[l].scale);
+        at = fr_make_single_children(expansion, row, child, at);
+    }
 }
 
 void fr_make_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
                   FrEvaluator *place) {
     const FrLevel *level = &expansion->level;
-    FrPose pose = fr_instance_pose(expansion, row, evaluator);
+    FrPose pose = fr_instance_pose(expansion, row, evaluator), tip;
     FrStem stem = fr_stem_measure(prepared_of(expansion, row), evaluator,
                                   fr_instance_stem_base(expansion, row, pose.scale));
-    FrPose tip = grow_stem(expansion, row, &stem, pose, evaluator);
+    FrPose *tips = stem.limb_count > 1 ? g_new(FrPose, stem.limb_count) : &tip;
+    grow_stem(expansion, row, &stem, pose, evaluator, tips);
     uint32_t at = level->child_count[row];
     if (level->places[row] > 0) {
         at = fr_make_branches(expansion, row, &stem, pose, evaluator, place, at);
     }
-    FrChild child = fr_single_child(expansion, row, tip);
-    child.joint = stem.internodes > 0 ? FR_JOINT_TIP : FR_JOINT_NONE;
-    child.x = 1;
-    child.parent_length = (float)(stem.length / pose.scale);
-    child.parent_radius = (float)(fr_stem_radius(&stem, 1) / pose.scale);
-    fr_make_single_children(expansion, row, child, at);
+    make_tips(expansion, row, &stem, tips, at);
+    if (tips != &tip) {
+        g_free(tips);
+    }
+    fr_stem_clear(&stem);
 }
 
 // What follows in the place of a variation goes on like it.

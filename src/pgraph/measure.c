@@ -16,27 +16,45 @@ static uint32_t count_children(const FrPrepared *prepared, FrEvaluator *evaluato
     return count < MOST_CHILDREN ? (uint32_t)count : (uint32_t)MOST_CHILDREN;
 }
 
+static FrStem stem_of(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
+    const FrPrepared *prepared = &expansion->prepared[fr_instance_stage(expansion, row)->component];
+    FrPose pose = fr_instance_pose(expansion, row, evaluator);
+    return fr_stem_measure(prepared, evaluator, fr_instance_stem_base(expansion, row, pose.scale));
+}
+
+// Branches of all limbs; more than fit are refused before they are made.
+static uint32_t count_branches(const FrStem *stem) {
+    uint64_t count = 0;
+    for (uint32_t l = 0; l < stem->limb_count; l++) {
+        count += stem->limbs[l].end_branch - stem->limbs[l].first_branch;
+    }
+    return count < MOST_CHILDREN ? (uint32_t)count : (uint32_t)MOST_CHILDREN;
+}
+
 static void measure_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
     const FrLevel *level = &expansion->level;
-    const FrPrepared *prepared = &expansion->prepared[fr_instance_stage(expansion, row)->component];
+    FrStem stem = stem_of(expansion, row, evaluator);
+    const FrPrepared *prepared = stem.prepared;
     const FrStemParams *params = prepared->params;
-    FrPose pose = fr_instance_pose(expansion, row, evaluator);
-    FrStem stem =
-        fr_stem_measure(prepared, evaluator, fr_instance_stem_base(expansion, row, pose.scale));
-    level->axis_count[row] = stem.internodes > 0;
+    level->axis_count[row] = stem.internodes > 0 ? stem.axes : 0;
     level->node_count[row] = stem.internodes;
+    level->tips[row] = stem.tips;
     if (prepared->is_string) {
         // Step by step, an object stands at either end of every step.
         bool has_both_ends = params->course == FR_COURSE_STEPS;
         level->organ_count[row] = stem.internodes + has_both_ends;
     }
-    level->places[row] = prepared->bears ? stem.places.branches : 0;
+    if (prepared->bears) {
+        level->places[row] = stem.limbs != NULL ? count_branches(&stem) : stem.places.branches;
+    }
+    fr_stem_clear(&stem);
 }
 
 void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
     const FrLevel *level = &expansion->level;
     const FrPrepared *prepared = &expansion->prepared[fr_instance_stage(expansion, row)->component];
     level->places[row] = 0;
+    level->tips[row] = 1;
     level->node_count[row] = 0;
     level->axis_count[row] = 0;
     level->organ_count[row] = 0;
@@ -79,10 +97,26 @@ void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator
     }
 }
 
-uint32_t fr_instance_children(const FrExpansion *expansion, uint32_t row) {
+// Branches with a component that are made, on all limbs of a stem.
+static uint32_t flagged_branches(const FrStem *stem, const FrFlags *flags) {
+    uint32_t count = 0, branches = stem->places.branches;
+    for (uint32_t l = 0; l < stem->limb_count; l++) {
+        for (uint32_t b = stem->limbs[l].first_branch; b < stem->limbs[l].end_branch; b++) {
+            count += fr_flags_allow(flags, b, branches);
+        }
+    }
+    return count;
+}
+
+uint32_t fr_instance_children(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
     const FrLevel *level = &expansion->level;
     const FrStage *stage = fr_instance_stage(expansion, row);
     FrComponentKind kind = expansion->prepared[stage->component].kind;
+    FrStem stem = {0};
+    if (level->tips[row] > 1) {
+        fr_instance_enter(expansion, row, evaluator);
+        stem = stem_of(expansion, row, evaluator);
+    }
     uint32_t count = 0;
     for (uint32_t k = 0; k < stage->link_count; k++) {
         if (kind == FR_COMPONENT_VARIATION && k != level->places[row]) {
@@ -90,11 +124,14 @@ uint32_t fr_instance_children(const FrExpansion *expansion, uint32_t row) {
         }
         const FrStageLink *link = fr_stage_link(expansion, stage, k);
         const FrFlags *flags = &fr_stage_prepared(expansion, link->stage)->flags;
-        if (fr_link_is_multiplied(kind, link->kind)) {
-            count += fr_flags_count(flags, level->places[row]);
+        if (!fr_link_is_multiplied(kind, link->kind)) {
+            count += fr_flags_allow(flags, level->i[row], level->n[row]) * level->tips[row];
+        } else if (stem.limbs != NULL && !flags->is_all) {
+            count += flagged_branches(&stem, flags);
         } else {
-            count += fr_flags_allow(flags, level->i[row], level->n[row]);
+            count += fr_flags_count(flags, level->places[row]);
         }
     }
+    fr_stem_clear(&stem);
     return count;
 }

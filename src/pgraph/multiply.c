@@ -10,6 +10,7 @@
 typedef struct Branching {
     const FrExpansion *expansion;
     const FrStem *stem;
+    const FrLimb *limb;
     const FrTreeParams *tree;
     FrPose base;
     uint32_t row;
@@ -37,12 +38,13 @@ static void stand_at(Branching *branching, uint32_t place, FrPose *site) {
     if (stem->internodes == 0) {
         return;
     }
-    uint32_t k = fr_stem_node_of(stem, branching->at, place);
-    uint32_t node = branching->expansion->level.node_count[branching->row] + k;
-    double back = stem->gaps > 0 ? 0 : (double)(k + 1) - branching->at * stem->internodes;
+    double back;
+    uint32_t k = fr_limb_node_of(stem, branching->limb, branching->at, place, &back);
+    uint32_t node = branching->expansion->level.node_count[branching->row];
+    node += branching->limb->first + k;
     float length = branching->expansion->plant->nodes.length[node];
     site->bearer = node;
-    site->offset = (vec3s){{0, 0, -(float)fmax(0, back) * length}};
+    site->offset = (vec3s){{0, 0, -(float)back * length}};
     site->rotation = (versors){{0, 0, 0, 1}};
 }
 
@@ -83,7 +85,9 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
     const FrPlaces *places = &stem->places;
     FrPose site;
     stand_at(branching, b / places->whorl, &site);
-    FrKey key = fr_key_child(level->key[branching->row], b);
+    // The stem's own axis has the keys it would have without forks.
+    FrKey stem_key = branching->limb->axis > 0 ? branching->limb->key : level->key[branching->row];
+    FrKey key = fr_key_child(stem_key, b);
     place->vars.key = key;
     if (stem->prepared->varies) {
         fr_place_enter(place, evaluator, level, branching->row, b, places->branches, key);
@@ -96,7 +100,7 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
     double azimuth = swept(fr_branch_azimuth(places, b), branching->sweep) + FR_GET(azimuth);
     azimuth += jitter != 0 ? jitter * fr_random_signed(key, FR_TREE_azimuth_jitter, 1) : 0;
     versors turn = fr_turned_zyz(azimuth, FR_GET(branching_angle), PI / 2 + FR_GET(roll));
-    double radius = fr_stem_radius(stem, branching->at);
+    double radius = fr_limb_radius(stem, branching->limb, branching->at);
     azimuth -= 2 * PI * floor(azimuth / (2 * PI));
     *reach = (vec3s){{(float)radius * cosf((float)azimuth),
                       (float)(radius * stem->flatness) * sinf((float)azimuth), 0}};
@@ -123,10 +127,36 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
     };
 }
 
+// Writes what hangs on branch b.
+static uint32_t make_branch(Branching *branching, uint32_t b, FrEvaluator *evaluator,
+                            FrEvaluator *place, uint32_t at) {
+    const FrExpansion *expansion = branching->expansion;
+    const FrStage *stage = fr_instance_stage(expansion, branching->row);
+    uint32_t count = branching->stem->places.branches;
+    vec3s reach;
+    FrChild child = pose_branch(branching, b, evaluator, place, &reach);
+    for (uint32_t k = 0; k < stage->link_count; k++) {
+        const FrStageLink *link = fr_stage_link(expansion, stage, k);
+        const FrPrepared *to = fr_stage_prepared(expansion, link->stage);
+        if (link->kind != FR_LINK_BRANCH || !fr_flags_allow(&to->flags, b, count)) {
+            continue;
+        }
+        FrChild one = child;
+        if (is_on_surface(branching->tree, to)) {
+            one.site.offset.x += reach.x;
+            one.site.offset.y += reach.y;
+            one.site.offset.z += reach.z;
+        }
+        fr_child_write(expansion, branching->row, link, &one, at++);
+    }
+    return at;
+}
+
 uint32_t fr_make_branches(const FrExpansion *expansion, uint32_t row, const FrStem *stem,
                           FrPose base, FrEvaluator *evaluator, FrEvaluator *place, uint32_t at) {
     const FrStage *stage = fr_instance_stage(expansion, row);
-    uint32_t count = expansion->level.places[row];
+    uint32_t count = stem->places.branches;
+    FrLimb whole = fr_stem_whole(stem);
     Branching branching = {
         .expansion = expansion,
         .stem = stem,
@@ -137,25 +167,12 @@ uint32_t fr_make_branches(const FrExpansion *expansion, uint32_t row, const FrSt
         .crown = stem->prepared->crown,
     };
     branching.sweep = fr_value(evaluator, &branching.tree->sweep, FR_TREE_sweep);
-    for (uint32_t b = 0; b < count; b++) {
-        if (!fr_is_wanted(expansion, stage, b, count)) {
-            continue;
-        }
-        vec3s reach;
-        FrChild child = pose_branch(&branching, b, evaluator, place, &reach);
-        for (uint32_t k = 0; k < stage->link_count; k++) {
-            const FrStageLink *link = fr_stage_link(expansion, stage, k);
-            const FrPrepared *to = fr_stage_prepared(expansion, link->stage);
-            if (link->kind != FR_LINK_BRANCH || !fr_flags_allow(&to->flags, b, count)) {
-                continue;
+    for (uint32_t l = 0; l < stem->limb_count; l++) {
+        branching.limb = fr_stem_limb(stem, &whole, l);
+        for (uint32_t b = branching.limb->first_branch; b < branching.limb->end_branch; b++) {
+            if (fr_is_wanted(expansion, stage, b, count)) {
+                at = make_branch(&branching, b, evaluator, place, at);
             }
-            FrChild one = child;
-            if (is_on_surface(branching.tree, to)) {
-                one.site.offset.x += reach.x;
-                one.site.offset.y += reach.y;
-                one.site.offset.z += reach.z;
-            }
-            fr_child_write(expansion, row, link, &one, at++);
         }
     }
     return at;

@@ -54,6 +54,17 @@
     X(CHOICE, tip, "pointed", 0, 0, "", "pointed flat", "end of the stem")                         \
     X(NUMBER, break_chance, "0", 0, 1, "", "", "probability that it is broken off, flat")          \
     X(NUMBER, break_at, "0.6", 0.01, 1, "", "", "where along the stem it then ends")               \
+    X(NUMBER, forks, "0", 0, 6, "", "",                                                            \
+      "how often it forks from base to tip; 1.5: twice by chance")                                 \
+    X(INTEGER, fork_arms, "2", 2, 4, "", "", "stems that go on from a fork")                       \
+    X(NUMBER, fork_start, "0.3", 0, 1, "", "", "where along the stem forks begin")                 \
+    X(NUMBER, fork_end, "0.9", 0, 1, "", "", "where along the stem forks end")                     \
+    X(NUMBER, fork_angle, "50", 0, 360, "deg", "", "angle between the arms of a fork")             \
+    X(NUMBER, fork_azimuth, "0 ~ 180", -36000, 36000, "deg", "", "turn of a fork about the stem")  \
+    X(NUMBER, fork_balance, "1", 0, 1, "", "",                                                     \
+      "1 all arms turn aside alike, 0 one goes straight on")                                       \
+    X(NUMBER, fork_radius, "0.8", 0.01, 1, "", "", "radius of each arm over that before the fork") \
+    X(NUMBER, fork_straightness, "0", 0, 1, "", "", "how far arms turn back on their way")         \
     X(INTEGER, segments, "0", 0, 1000, "", "", "internodes, objects of a string; 0: as needed")    \
     X(NUMBER, curvature, "0", -3600, 3600, "deg", "",                                              \
       "turn from base to tip, towards its y axis: up on a branch")                                 \

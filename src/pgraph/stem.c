@@ -1,6 +1,8 @@
 // Measuring stems: numbers, internodes, radii, places. How they bend is in stem_grow.c.
 #include "pgraph/stem.h"
 
+#include "pgraph/fork.h"
+
 #include <math.h>
 
 #define PI 3.14159265358979323846
@@ -174,6 +176,7 @@ static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase bas
     stem->tropism.up = FR_GET(phototropism);
     stem->tropism.down = FR_GET(gravitropism);
     stem->tropism.flat = FR_GET(plagiotropism);
+    stem->forks = FR_GET(forks);
     stem->deviation = stem->prepared->kind == FR_COMPONENT_TREE && params->course == FR_COURSE_GROWN
                           ? FR_GET(deviation)
                           : 0;
@@ -204,6 +207,9 @@ FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrSte
         .key = evaluator->vars.key,
         .step = base.step,
         .is_in_field = base.is_in_field,
+        .limb_count = 1,
+        .axes = 1,
+        .tips = 1,
     };
     measure_numbers(&stem, evaluator, base);
     measure_break(&stem, evaluator);
@@ -217,12 +223,15 @@ FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrSte
     }
     if (prepared->kind == FR_COMPONENT_TREE) {
         stem.places = measure_places(&stem, evaluator, base.scale);
-        if (stem.deviation > 0 && stem.places.count > 0) {
+        if (stem.deviation > 0 && stem.places.count > 0 && !(stem.forks > 0)) {
             double last = fr_place_at(&stem.places, stem.places.count - 1);
             stem.gaps = stem.places.count + (last < 1 - AT_TIP);
             uint32_t each = (stem.internodes + stem.gaps - 1) / stem.gaps;
             stem.internodes = clamp_count((double)each * stem.gaps);
         }
+    }
+    if (stem.forks > 0) {
+        fr_stem_fork(&stem, evaluator);
     }
     return stem;
 }
@@ -260,12 +269,41 @@ double fr_stem_node_end(const FrStem *stem, uint32_t k) {
     return ends[0] + (ends[1] - ends[0]) * (k % each + 1) / each;
 }
 
-uint32_t fr_stem_node_of(const FrStem *stem, double at, uint32_t place) {
+FrLimb fr_stem_whole(const FrStem *stem) {
+    return (FrLimb){
+        .end = 1,
+        .before = FR_NONE,
+        .begins_axis = true,
+        .internodes = stem->internodes,
+        .thinner = 1,
+        .key = stem->key,
+        .end_branch = stem->places.branches,
+    };
+}
+
+double fr_limb_node_end(const FrStem *stem, const FrLimb *limb, uint32_t k) {
+    if (stem->gaps > 0) {
+        return fr_stem_node_end(stem, k);
+    }
+    return limb->start + (limb->end - limb->start) * (k + 1) / limb->internodes;
+}
+
+double fr_limb_radius(const FrStem *stem, const FrLimb *limb, double at) {
+    double radius = fr_stem_radius(stem, at);
+    return limb->thinner < 1 ? fmax(radius * limb->thinner, stem->min_radius) : radius;
+}
+
+uint32_t fr_limb_node_of(const FrStem *stem, const FrLimb *limb, double at, uint32_t place,
+                         double *back) {
     if (stem->gaps > 0) {
         uint32_t each = stem->internodes / stem->gaps;
+        *back = 0;
         return (place + 1) * each - 1;
     }
-    double k = ceil(at * stem->internodes - 1e-9) - 1;
-    uint32_t last = stem->internodes > 0 ? stem->internodes - 1 : 0;
-    return k <= 0 ? 0 : k >= last ? last : (uint32_t)k;
+    double along = (at - limb->start) / (limb->end - limb->start) * limb->internodes;
+    double k = ceil(along - 1e-9) - 1;
+    uint32_t last = limb->internodes > 0 ? limb->internodes - 1 : 0;
+    uint32_t node = k <= 0 ? 0 : k >= last ? last : (uint32_t)k;
+    *back = fmax(0, (double)(node + 1) - along);
+    return node;
 }

@@ -18,6 +18,23 @@ typedef struct FrStemBase {
     bool is_in_field; ///< other than plain gravity and light
 } FrStemBase;
 
+/// A stretch of a stem that forks: between two forks, or a fork and an end.
+typedef struct FrLimb {
+    double start, end;     ///< along the stem; an end of 1 is a tip
+    uint32_t before;       ///< limb it grows from, FR_NONE
+    uint32_t axis;         ///< which of the stem's axes it is on
+    bool begins_axis;      ///< … as its first
+    uint32_t forks;        ///< passed on the way to it
+    uint32_t first;        ///< internode, of the stem's
+    uint32_t internodes;   ///< ≥ 1
+    double thinner;        ///< factor of radii
+    double turn;           ///< radians, at its start
+    double turn_x, turn_y; ///< … about x and y
+    double straightness;   ///< part of it that is taken back up to its end
+    FrKey key;
+    uint32_t first_branch, end_branch; ///< of a Tree: those of the stem's that it bears
+} FrLimb;
+
 /// One stem, measured.
 typedef struct FrStem {
     const FrPrepared *prepared;
@@ -37,21 +54,39 @@ typedef struct FrStem {
     versors step_chord, step_turn; ///< … first internode's rotation, each further's
     FrKey key;
     FrPlaces places; ///< of a Tree
+    double forks;
+    FrLimb *limbs;       ///< parents first; owned; NULL: it does not fork
+    uint32_t limb_count; ///< 1 unless it forks
+    uint32_t axes, tips; ///< the same
 } FrStem;
 
-/// Measures the stem of the instance whose variables are set.
+/// Measures the stem of the instance whose variables are set; to be cleared.
 FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrStemBase base);
+void fr_stem_clear(FrStem *stem);
 /// Radius at `at`, 0 at the base to 1 at the tip, m.
 double fr_stem_radius(const FrStem *stem, double at);
-/// Where internode k ends along the stem, 0 to 1.
+/// The one limb of a stem that does not fork.
+FrLimb fr_stem_whole(const FrStem *stem);
+/// Limb k of a stem; `whole` is fr_stem_whole() of it.
+static inline const FrLimb *fr_stem_limb(const FrStem *stem, const FrLimb *whole, uint32_t k) {
+    return stem->limbs != NULL ? &stem->limbs[k] : whole;
+}
+/// Where internode k ends along a stem that does not fork, 0 to 1.
 double fr_stem_node_end(const FrStem *stem, uint32_t k);
-/// The internode that holds the point `at`, for place k of the stem's places.
-uint32_t fr_stem_node_of(const FrStem *stem, double at, uint32_t place);
+/// Where internode k of a limb ends along the stem.
+double fr_limb_node_end(const FrStem *stem, const FrLimb *limb, uint32_t k);
+/// Radius of a limb at `at` of the stem, m.
+double fr_limb_radius(const FrStem *stem, const FrLimb *limb, double at);
+/// The internode of a limb that holds the point `at` of the stem, for place k of the stem's places;
+/// *back receives how far before its end that is, in internodes.
+uint32_t fr_limb_node_of(const FrStem *stem, const FrLimb *limb, double at, uint32_t place,
+                         double *back);
 /// Fills rows first … of the plant's nodes, all on `axis`, whose offset and bearer are set, with
-/// `start` the rotation from the bearer's frame to the stem's. Brings their cache up to date.
-/// Returns the rotation from the last internode's frame to that of the very tip.
-versors fr_stem_grow(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t first,
-                     versors start, const FrFields *fields);
+/// `start` the rotation from the bearer's frame to the stem's. The limb it grows from has grown.
+/// Brings their cache up to date. Returns the rotation from the last internode's frame to that of
+/// the very tip.
+versors fr_limb_grow(const FrStem *stem, const FrLimb *limb, FrPlant *plant, uint32_t axis,
+                     uint32_t first, versors start, const FrFields *fields);
 /// Rotation of branch b about the stem at its place, without azimuth of its own, radians.
 static inline double fr_branch_azimuth(const FrPlaces *places, uint32_t b) {
     uint32_t place = b / places->whorl;

@@ -30,19 +30,19 @@ static double bend_up_to(const FrStem *stem, double at) {
 }
 
 // Two octaves of noise, in radians. Both begin at 0, so a stem sets out as it was placed.
-static double gnarl_at(const FrStem *stem, uint64_t side, double at) {
-    FrKey key = fr_key_child(fr_key_child(stem->key, FR_STEM_gnarl), side);
+static double gnarl_at(const FrStem *stem, FrKey limb, uint64_t side, double at) {
+    FrKey key = fr_key_child(fr_key_child(limb, FR_STEM_gnarl), side);
     double x = at * stem->gnarl_frequency;
     return stem->gnarl * (1.4 * fr_noise1(key, x) + 0.6 * fr_noise1(~key, 2 * x));
 }
 
 // The turn of a grown stem from where the walk is to `at`, fields not counted, in its own frame.
-static versors walk_to(const FrStem *stem, Walk *walk, double at, double zigzag_x,
+static versors walk_to(const FrStem *stem, FrKey key, Walk *walk, double at, double zigzag_x,
                        double zigzag_y) {
     double bend = bend_up_to(stem, at);
     double x = walk->bend - bend + zigzag_x, y = zigzag_y;
     if (stem->gnarl > 0) {
-        double gnarl_x = gnarl_at(stem, 0, at), gnarl_y = gnarl_at(stem, 1, at);
+        double gnarl_x = gnarl_at(stem, key, 0, at), gnarl_y = gnarl_at(stem, key, 1, at);
         x += gnarl_x - walk->gnarl_x;
         y += gnarl_y - walk->gnarl_y;
         walk->gnarl_x = gnarl_x;
@@ -72,59 +72,70 @@ static versors turned_further(versors parent, versors turn, versors field) {
     return fr_frame_step(own, turn);
 }
 
-static versors frame_before(const FrPlant *plant, uint32_t axis, uint32_t first, uint32_t k) {
-    uint32_t before = k > 0 ? first + k - 1 : plant->axes.bearer[axis];
-    return before != FR_NONE ? plant->nodes.frame[before] : identity;
+// A limb on its way into the plant.
+typedef struct Growth {
+    const FrStem *stem;
+    const FrLimb *limb;
+    FrPlant *plant;
+    const FrFields *fields;
+    uint32_t axis;   // of the plant
+    uint32_t before; // node; FR_NONE: on the ground
+    bool is_base;    // nothing of the stem has grown yet
+} Growth;
+
+static versors frame_before(const Growth *growth) {
+    return growth->before != FR_NONE ? growth->plant->nodes.frame[growth->before] : identity;
 }
 
-// Where the walk is: in the middle of the internode before.
-static vec3s walk_place(const FrPlant *plant, uint32_t axis, uint32_t first, uint32_t k) {
-    if (k == 0) {
-        return fr_plant_axis_origin(plant, axis);
-    }
-    uint32_t before = first + k - 1;
-    return fr_advanced(plant->nodes.position[before], plant->nodes.frame[before],
-                       -0.5f * plant->nodes.length[before]);
-}
-
-// Adds to `turn` what the fields turn the stem by over `step`, before internode k.
-static versors with_fields(const FrStem *stem, const FrPlant *plant, uint32_t axis, uint32_t first,
-                           uint32_t k, versors turn, double step, const FrFields *fields) {
-    versors parent = frame_before(plant, axis, first, k);
+// Adds to `turn` what the fields turn the stem by over `step`, from the middle of the last
+// internode.
+static versors with_fields(const Growth *growth, versors turn, double step) {
+    const FrStem *stem = growth->stem;
+    const FrNodes *nodes = &growth->plant->nodes;
+    versors parent = frame_before(growth);
     versors frame = fr_frame_step(parent, turn);
     if (!stem->is_in_field) {
         return turned_further(parent, turn, fr_tropism_turn(stem->tropism, frame, step));
     }
     FrDraw draw = {.tropism = stem->tropism, .length = stem->length, .finest = stem->step};
-    vec3s from = walk_place(plant, axis, first, k);
-    return turned_further(parent, turn, fr_field_turn(fields, &draw, frame, from, step));
+    uint32_t before = growth->before;
+    vec3s from = growth->is_base ? fr_plant_axis_origin(growth->plant, growth->axis)
+                                 : fr_advanced(nodes->position[before], nodes->frame[before],
+                                               -0.5f * nodes->length[before]);
+    return turned_further(parent, turn, fr_field_turn(growth->fields, &draw, frame, from, step));
 }
 
-// Adds to `turn` what keeps internode k out of what is solid.
-static versors deflected(const FrStem *stem, const FrPlant *plant, uint32_t axis, uint32_t first,
-                         uint32_t k, versors turn, double length, const FrFields *fields) {
-    versors parent = frame_before(plant, axis, first, k), aside;
-    vec3s from = k > 0 ? plant->nodes.position[first + k - 1] : fr_plant_axis_origin(plant, axis);
-    double radius = 1.1 * fr_stem_radius(stem, fr_stem_node_end(stem, k));
-    bool is_turned =
-        fr_field_deflect(fields, fr_frame_step(parent, turn), from, length, radius, &aside);
+// Adds to `turn` what keeps an internode out of what is solid.
+static versors deflected(const Growth *growth, versors turn, double length, double radius) {
+    versors parent = frame_before(growth), aside;
+    vec3s from = growth->is_base ? fr_plant_axis_origin(growth->plant, growth->axis)
+                                 : growth->plant->nodes.position[growth->before];
+    bool is_turned = fr_field_deflect(growth->fields, fr_frame_step(parent, turn), from, length,
+                                      1.1 * radius, &aside);
     return is_turned ? turned_further(parent, turn, aside) : turn;
 }
 
-static void write_node(FrPlant *plant, uint32_t axis, uint32_t node, uint32_t first,
-                       versors rotation, double length, double radius, double flatness) {
-    FrNodes *nodes = &plant->nodes;
-    bool is_first = node == first;
-    nodes->parent[node] = is_first ? plant->axes.bearer[axis] : node - 1;
+// Writes the next node of a growth.
+static void write_node(Growth *growth, uint32_t node, versors rotation, double length,
+                       double radius) {
+    FrNodes *nodes = &growth->plant->nodes;
+    FrAxes *axes = &growth->plant->axes;
+    uint32_t axis = growth->axis;
+    nodes->parent[node] = growth->before;
     nodes->axis[node] = axis;
     nodes->rotation[node] = rotation;
     nodes->length[node] = (float)length;
     nodes->radius[node] = (float)radius;
-    nodes->flatness[node] = (float)flatness;
-    if (!is_first) {
-        nodes->next[node - 1] = node;
+    nodes->flatness[node] = (float)growth->stem->flatness;
+    if (axes->first[axis] == FR_NONE) {
+        axes->first[axis] = node;
+    } else {
+        nodes->next[growth->before] = node;
     }
-    fr_update_frame(nodes, &plant->axes, node);
+    axes->last[axis] = node;
+    fr_update_frame(nodes, axes, node);
+    growth->before = node;
+    growth->is_base = false;
 }
 
 // Whether every internode but the first turns by the same, fields not counted.
@@ -133,50 +144,79 @@ static bool is_steady(const FrStem *stem) {
     return stem->gaps == 0 && stem->gnarl <= 0 && params->curvature_curve == NULL;
 }
 
-static versors grow_evenly(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t first,
-                           versors start, const FrFields *fields) {
+// Where the walk along a limb begins: in the middle of the internode before it.
+static Walk walk_of(const FrStem *stem, const FrLimb *limb) {
     Walk walk = {0};
-    double end = 0;
-    uint32_t each = stem->gaps > 0 ? stem->internodes / stem->gaps : stem->internodes;
+    if (limb->before == FR_NONE) {
+        return walk;
+    }
+    const FrLimb *before = &stem->limbs[limb->before];
+    walk.at = before->end - 0.5 * (before->end - before->start) / before->internodes;
+    walk.bend = bend_up_to(stem, walk.at);
+    if (stem->gnarl > 0) {
+        walk.gnarl_x = gnarl_at(stem, limb->key, 0, walk.at);
+        walk.gnarl_y = gnarl_at(stem, limb->key, 1, walk.at);
+    }
+    return walk;
+}
+
+// What a limb is turned by before internode k other than along its way: by its fork, the rest of
+// which it takes back, or away from the branch at the place just passed.
+static void turn_aside(const FrStem *stem, const FrLimb *limb, uint32_t k, double step, double *x,
+                       double *y) {
+    *x = *y = 0;
+    if (limb->turn != 0) {
+        double part = (k == 0) - limb->straightness * step / (limb->end - limb->start);
+        *x = part * limb->turn_x;
+        *y = part * limb->turn_y;
+    }
+    uint32_t each = stem->gaps > 0 ? stem->internodes / stem->gaps : 0;
+    if (each > 0 && k > 0 && k % each == 0) {
+        double azimuth = (double)(k / each - 1) * stem->places.divergence;
+        *x = stem->deviation * sin(azimuth);
+        *y = -stem->deviation * cos(azimuth);
+    }
+}
+
+static versors grow_evenly(Growth *growth, uint32_t first, versors start) {
+    const FrStem *stem = growth->stem;
+    const FrLimb *limb = growth->limb;
+    Walk walk = walk_of(stem, limb);
+    double end = limb->start;
     bool steady = is_steady(stem), has_fields = fr_tropism_acts(stem->tropism) || stem->is_in_field;
     versors turn = identity;
-    for (uint32_t k = 0; k < stem->internodes; k++) {
-        double begin = end, zigzag_x = 0, zigzag_y = 0;
-        end = fr_stem_node_end(stem, k);
-        if (k > 0 && k % each == 0) { // away from the branch at the place just passed
-            double azimuth = (double)(k / each - 1) * stem->places.divergence;
-            zigzag_x = stem->deviation * sin(azimuth);
-            zigzag_y = -stem->deviation * cos(azimuth);
-        }
+    for (uint32_t k = 0; k < limb->internodes; k++) {
+        double begin = end, aside_x, aside_y;
+        end = fr_limb_node_end(stem, limb, k);
         double middle = 0.5 * (begin + end), step = middle - walk.at;
+        double length = (end - begin) * stem->length, radius = fr_limb_radius(stem, limb, end);
         if (k <= 1 || !steady) {
-            turn = walk_to(stem, &walk, middle, zigzag_x, zigzag_y);
+            turn_aside(stem, limb, k, middle - fmax(walk.at, limb->start), &aside_x, &aside_y);
+            turn = walk_to(stem, limb->key, &walk, middle, aside_x, aside_y);
         }
         walk.at = middle;
-        versors own = k > 0 ? turn : fr_frame_step(start, turn);
+        versors own = growth->is_base ? fr_frame_step(start, turn) : turn;
         if (has_fields) {
-            own = with_fields(stem, plant, axis, first, k, own, step, fields);
+            own = with_fields(growth, own, step);
         }
         if (stem->is_in_field) {
-            own = deflected(stem, plant, axis, first, k, own, (end - begin) * stem->length, fields);
+            own = deflected(growth, own, length, radius);
         }
-        write_node(plant, axis, first + k, first, own, (end - begin) * stem->length,
-                   fr_stem_radius(stem, end), stem->flatness);
+        write_node(growth, first + k, own, length, radius);
     }
     double step = 1 - walk.at;
     walk.bend = bend_up_to(stem, walk.at);
-    turn = walk_to(stem, &walk, 1, 0, 0);
-    return has_fields ? with_fields(stem, plant, axis, first, stem->internodes, turn, step, fields)
-                      : turn;
+    turn = walk_to(stem, limb->key, &walk, 1, 0, 0);
+    return has_fields ? with_fields(growth, turn, step) : turn;
 }
 
-static versors grow_steps(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t first,
-                          versors start) {
+static versors grow_steps(Growth *growth, uint32_t first, versors start) {
+    const FrStem *stem = growth->stem;
     double length = stem->step_length;
     for (uint32_t k = 0; k < stem->internodes; k++) {
         versors turn = k > 0 ? stem->step_turn : fr_frame_step(start, stem->step_chord);
-        write_node(plant, axis, first + k, first, turn, length,
-                   fr_stem_radius(stem, fr_stem_node_end(stem, k)), stem->flatness);
+        write_node(growth, first + k, turn, length,
+                   fr_stem_radius(stem, fr_stem_node_end(stem, k)));
         length = fmin(length * stem->step_scale, 1e6);
     }
     // From the chord's frame back to that of the last cross-section, which has turned once more.
@@ -185,8 +225,8 @@ static versors grow_steps(const FrStem *stem, FrPlant *plant, uint32_t axis, uin
     return fr_frame_step(stem->step_turn, back);
 }
 
-static versors grow_path(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t first,
-                         versors start) {
+static versors grow_path(Growth *growth, uint32_t first, versors start) {
+    const FrStem *stem = growth->stem;
     const vec3s *points = (const vec3s *)(const void *)stem->prepared->path->data;
     versors frame = identity; // of the internode, in the stem's own coordinates
     double twist = stem->twist / stem->internodes;
@@ -204,27 +244,31 @@ static versors grow_path(const FrStem *stem, FrPlant *plant, uint32_t axis, uint
             turn = fr_frame_step(turn, fr_rotation_about((vec3s){{0, 0, 1}}, (float)twist));
         }
         frame = fr_frame_step(frame, turn);
-        write_node(plant, axis, first + k, first, k > 0 ? turn : fr_frame_step(start, turn),
-                   (double)length * stem->scale, fr_stem_radius(stem, fr_stem_node_end(stem, k)),
-                   stem->flatness);
+        write_node(growth, first + k, k > 0 ? turn : fr_frame_step(start, turn),
+                   (double)length * stem->scale, fr_stem_radius(stem, fr_stem_node_end(stem, k)));
     }
     return identity;
 }
 
-versors fr_stem_grow(const FrStem *stem, FrPlant *plant, uint32_t axis, uint32_t first,
-                     versors start, const FrFields *fields) {
+versors fr_limb_grow(const FrStem *stem, const FrLimb *limb, FrPlant *plant, uint32_t axis,
+                     uint32_t first, versors start, const FrFields *fields) {
     const FrStemParams *params = stem->prepared->params;
-    if (stem->internodes == 0) {
-        return start;
-    }
-    plant->axes.first[axis] = first;
-    plant->axes.last[axis] = first + stem->internodes - 1;
+    uint32_t last = plant->axes.last[axis];
+    Growth growth = {
+        .stem = stem,
+        .limb = limb,
+        .plant = plant,
+        .fields = fields,
+        .axis = axis,
+        .before = last != FR_NONE ? last : plant->axes.bearer[axis],
+        .is_base = limb->before == FR_NONE,
+    };
     switch (params->course) {
     case FR_COURSE_PATH:
-        return grow_path(stem, plant, axis, first, start);
+        return grow_path(&growth, first, start);
     case FR_COURSE_STEPS:
-        return grow_steps(stem, plant, axis, first, start);
+        return grow_steps(&growth, first, start);
     default:
-        return grow_evenly(stem, plant, axis, first, start, fields);
+        return grow_evenly(&growth, first, start);
     }
 }

@@ -170,7 +170,7 @@ static bool is_point(const FrPlan *plan, uint32_t node) {
            (plant->axes.flags[plant->nodes.axis[node]] & (FR_CUT | FR_POINT_SETS)) == 0;
 }
 
-// A branch at its parent's end goes on from a ring within that end, as the arm of a fork does.
+// A branch at its parent's end, and the arm of a fork, go on from a ring within their parent.
 static void nest(const FrPlan *plan, uint32_t node, const FrInternode *internode, float length,
                  bool is_fine, FrCollar *collar) {
     float radius = MIN(0.985F * collar->parent_radius, 1.5F * collar->radius);
@@ -233,7 +233,8 @@ FrCollar fr_collar_find(const FrPlan *plan, const FrTube *tube, uint32_t sides) 
                  collar.parent_radius * fabsf(glms_vec3_dot(collar.direction, collar.along)) / up;
     float forth = internode.beyond + shift + half, back = -(internode.beyond + shift - half);
     bool is_fine = sides > 5 && plan->detail.lod < 2;
-    if (!parent_reaches(plan, node, forth, back) || last_exit > 0.6F * length ||
+    bool is_fork = (plant->axes.flags[tube->axis] & FR_FORK) != 0;
+    if (is_fork || !parent_reaches(plan, node, forth, back) || last_exit > 0.6F * length ||
         !(collar.parent_radius > fr_smallest_length(collar.origin, radius))) {
         nest(plan, node, &internode, length, is_fine, &collar);
         return collar;
