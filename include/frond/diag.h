@@ -31,6 +31,10 @@ FR_API FrSource *fr_source_new(const char *name, const char *text, size_t size);
 typedef struct FrDiags FrDiags;
 FR_API FrSource *fr_source_load(const char *path, uint64_t max_bytes, FrDiags *diags,
                                 FrStatus *status);
+/// A text that stands within another: byte i of it came from byte origins[i] of `outer`, its end
+/// from origins[size]. Diagnostics about it point into `outer`.
+FR_API FrSource *fr_source_within(FrSource *outer, const char *text, size_t size,
+                                  const uint32_t *origins);
 FR_API FrSource *fr_source_ref(FrSource *source);
 FR_API void fr_source_unref(FrSource *source);
 FR_API const char *fr_source_name(const FrSource *source);
@@ -50,10 +54,13 @@ typedef struct FrSpan {
 /// A span that starts `begin` bytes into `outer` and ends `end` bytes into it.
 FR_API FrSpan fr_span_inside(FrSpan outer, size_t begin, size_t end);
 
+/// The place in the outermost text of a span of a text within others.
+FR_API FrSpan fr_span_outermost(FrSpan span);
+
 typedef struct FrDiag {
     FrSeverity severity;
     const char *code; ///< static, kebab-case
-    FrSpan span;      ///< its source is kept alive by the FrDiags
+    FrSpan span;      ///< outermost; its source is kept alive by the FrDiags
     char *text;       ///< one sentence, no full stop
 } FrDiag;
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "frond/context.h"
+#include "frond/lsystem_model.h"
 #include "frond/material.h"
 #include "frond/pgraph.h"
 #include "frond/variation.h"
@@ -35,6 +36,7 @@ FR_API FR_MUST_USE FrStatus fr_document_set(FrDocument *document, const char *pa
 
 typedef enum FrPlantKind {
     FR_PLANT_PGRAPH,
+    FR_PLANT_LSYSTEM,
     FR_PLANT_VARIED, ///< another plant of the document, varied
 } FrPlantKind;
 
@@ -58,9 +60,11 @@ FR_API const FrParamTable *fr_slider_table(void);
 typedef struct FrPlantDef {
     char *id;
     uint64_t seed;
+    bool has_seed; ///< it was given; else an L-system keeps that of its text
     FrPlantKind kind;
     GPtrArray *sliders; ///< FrSlider *, in the order of the document
     FrPgraph *pgraph;   ///< for FR_PLANT_PGRAPH, else empty
+    FrLmodel *lsystem;  ///< for FR_PLANT_LSYSTEM, else NULL
     FrVary *vary;       ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
     FrSpan span;
 } FrPlantDef;

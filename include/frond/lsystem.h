@@ -25,11 +25,20 @@ typedef enum FrLnotation {
     FR_LNOTATION_PAPER, ///< `w : A` and `p1 : lc < A > rc : cond -> B : prob`
 } FrLnotation;
 
+/// A number that is set from outside: where the file defines or uses the name, it has this value.
+typedef struct FrLvalue {
+    const char *name; ///< letter or `_`, then letters, digits, `_`
+    double value;
+    FrSpan span; ///< where it is set
+} FrLvalue;
+
 typedef struct FrLoptions {
     FrLnotation notation;
-    const char *folder;  ///< where #include looks; NULL: nothing can be included
-    const FrLview *view; ///< its function names are known to the file; may be NULL
-    bool round_brackets; ///< `(` and `)` branch, as in F(+F)F; then modules have no parameters
+    const char *folder;     ///< where #include looks; NULL: nothing can be included
+    const FrLview *view;    ///< its function names are known to the file; may be NULL
+    bool round_brackets;    ///< `(` and `)` branch, as in F(+F)F; then modules have no parameters
+    const FrLvalue *values; ///< set from outside; a #define of such a name has no effect
+    size_t value_count;     ///< at most 1000
 } FrLoptions;
 
 /// Reads and compiles a file; `options` may be NULL. All errors of the file are told in one run.
@@ -98,12 +107,18 @@ FR_API FrEnvironment fr_lsimple_environment(FrLsimple *simple);
 // ---- derivation -------------------------------------------------------------------------------
 
 typedef struct FrLsettings {
-    int64_t seed;                     ///< of stochastic choice; < 0: what the file says
+    int64_t seed;                     ///< of all random numbers; < 0: what the file says
     int64_t steps;                    ///< derivation length; < 0: what the file says
     const FrLview *view;              ///< functions, curves, turtle; NULL: defaults
     const FrEnvironment *environment; ///< who answers; NULL: nobody, open parameters stay open
     void (*print)(void *user, const char *text); ///< where printf() of the language goes; NULL
     void *print_user;
+    const double *values; ///< for the names of FrLoptions.values, in their order; NULL: those there
+    double unit;          ///< metres of one unit of the file
+    FrMaterial *axes, *organs; ///< their materials, borrowed; NULL: brown and green ones
+    bool inherits;             ///< where those are NULL there is none: that of what bears the plant
+    const char *sites; ///< symbols that place something: organs without a shape, scaled by the
+                       ///< first parameter, whose component is called like the symbol; NULL: none
 } FrLsettings;
 
 FR_API FrLsettings fr_lsettings_default(void);
@@ -148,8 +163,8 @@ typedef struct FrLdrawn {
     uint64_t spheres, discs, polygons, surfaces, cylinders;
 } FrLdrawn;
 
-/// Draws the string: homomorphism, then the turtle. `drawn` may be NULL. One unit of the file is
-/// one metre; the file's y axis is the plant's z axis.
+/// Draws the string: homomorphism, then the turtle. `drawn` may be NULL. The file's y axis is the
+/// plant's z axis.
 FR_API FR_MUST_USE FrStatus fr_lderivation_plant(FrLderivation *derivation,
                                                  const FrContext *context, FrPlant **plant,
                                                  FrLdrawn *drawn);

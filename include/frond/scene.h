@@ -10,6 +10,7 @@ typedef struct FrScenePlant {
     FrPlant *plant;
     uint64_t instances;
     uint64_t *by_component; ///< instances by component, as many as plant->components has
+    uint64_t modules;       ///< of the string, if an L-system made it
 } FrScenePlant;
 
 typedef struct FrStand {
@@ -34,9 +35,11 @@ typedef struct FrScene {
 /// FrLimits.bytes. The document must outlive the scene.
 FR_API FR_MUST_USE FrStatus fr_scene_build(const FrDocument *document, int64_t seed,
                                            const FrContext *context, FrScene **scene);
-/// A scene of one plant, which it takes, at the origin; sun, ground and views are the document's.
-FR_API FrScene *fr_scene_of_plant(FrPlant *plant, uint64_t instances, const FrDocument *document,
-                                  uint64_t seed);
+/// Builds a plant that is no variation, alone; `seed` < 0 is its own. `counts` (may be NULL) is
+/// that of fr_pgraph_build() for a p-graph and empty for others.
+FR_API FR_MUST_USE FrStatus fr_scene_grow(const FrDocument *document, const FrPlantDef *definition,
+                                          int64_t seed, const FrContext *context,
+                                          FrScenePlant *plant, FrPgraphCounts *counts);
 /// `count` instances of a plant side by side, of seeds `seed` (< 0: the plant's), `seed` + 1, …; a
 /// plant that is no variation is varied by the default settings. The base keeps its own seed. Sun
 /// and ground are the document's; views, made for the document's own scene, are left out.

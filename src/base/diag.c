@@ -79,6 +79,7 @@ void fr_diags_add(FrDiags *diags, FrSeverity severity, const char *code, FrSpan 
         va_start(arguments, format);
         char *text = g_strdup_vprintf(format, arguments);
         va_end(arguments);
+        span = fr_span_outermost(span);
         fr_source_ref(span.source);
         *diag =
             (FrDiag){.severity = severity, .code = code, .span = span, .text = clean_text(text)};

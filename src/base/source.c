@@ -28,6 +28,8 @@ struct FrSource {
     size_t size;
     pthread_mutex_t lock; // guards `marks`
     GArray *marks;        // of Mark, the first at 0; NULL until a place is asked for
+    FrSource *outer;      // the text around it, NULL
+    uint32_t *origins;    // … and where in that each byte and the end stand
 };
 
 // Takes over `text`, which has a zero byte after `size`.
@@ -49,6 +51,26 @@ FrSource *fr_source_new(const char *name, const char *text, size_t size) {
     }
     copy[size] = 0;
     return new_source(name, copy, size);
+}
+
+FrSource *fr_source_within(FrSource *outer, const char *text, size_t size,
+                           const uint32_t *origins) {
+    FrSource *source = fr_source_new(outer->name, text, size);
+    source->outer = fr_source_ref(outer);
+    source->origins = g_memdup2(origins, (size + 1) * sizeof *origins);
+    return source;
+}
+
+FrSpan fr_span_outermost(FrSpan span) {
+    while (span.source != NULL && span.source->outer != NULL) {
+        const FrSource *source = span.source;
+        uint32_t last = (uint32_t)source->size;
+        uint32_t begin = MIN(span.begin, last), end = MIN(span.end, last);
+        // The end is behind the last byte, wherever the next one stands.
+        uint32_t outer_end = end > begin ? source->origins[end - 1] + 1 : source->origins[begin];
+        span = (FrSpan){source->outer, source->origins[begin], outer_end};
+    }
+    return span;
 }
 
 static FrSource *fail(FrDiags *diags, FrStatus *status, FrStatus why, const char *path,
@@ -150,6 +172,8 @@ void fr_source_unref(FrSource *source) {
         g_array_unref(source->marks);
     }
     pthread_mutex_destroy(&source->lock);
+    fr_source_unref(source->outer);
+    g_free(source->origins);
     g_free(source->name);
     g_free(source->text);
     g_free(source);

@@ -93,7 +93,7 @@ void cli_session_flush(CliSession *session);
 int cli_session_signal(void);
 /// False after a message if `input` is a file that -o or --stats names.
 bool cli_check_spared(const CliOptions *options, const char *input);
-/// Reads a document and applies --set.
+/// Reads a document or an L-system and applies --set, --steps and --view.
 FR_MUST_USE FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **document);
 /// Reads and builds. On failure both are NULL.
 FR_MUST_USE FrStatus cli_session_build(CliSession *session, const char *path, FrDocument **document,
@@ -137,20 +137,14 @@ FR_MUST_USE FrStatus cli_model_info(CliSession *session, const char *path);
 
 /// Whether a file is an L-system by its name: .l
 bool cli_is_lsystem(const char *path);
-/// An L-system, its view and its derivation before the first step.
-typedef struct CliLsystem {
-    FrLview *view;
-    FrLsystem *system;
-    FrLsimple simple; ///< answers what it asks
-    FrEnvironment environment;
-    FrLderivation *derivation;
-} CliLsystem;
-/// Reads file and view as the options say. On failure everything is NULL.
-FR_MUST_USE FrStatus cli_lsystem_open(CliSession *session, const char *path, CliLsystem *lsystem);
-void cli_lsystem_close(CliLsystem *lsystem);
-/// Reads, derives and draws it as the only plant of a scene; `document` holds what is around.
-FR_MUST_USE FrStatus cli_lsystem_build(CliSession *session, const char *path, FrDocument **document,
-                                       FrScene **scene);
+/// Reads it as a document of one plant, `plant`; --set without a dot sets numbers of its own.
+FR_MUST_USE FrStatus cli_lsystem_read(CliSession *session, const char *path, FrDocument **document);
+/// Whether cli_lsystem_read() has seen to a --set.
+bool cli_lsystem_takes(const char *path, const char *set);
+/// Does what --steps, --view ask of the L-systems of a document, and lets them print.
+FR_MUST_USE FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document);
+/// Names the plants of a scene like the .l file they come from.
+void cli_lsystem_name(const char *path, FrScene *scene);
 
 // ---- verbs ------------------------------------------------------------------------------------
 

@@ -1,4 +1,5 @@
-/// L-systems as input: a .l file, with the .v view beside it or the one that --view names.
+/// L-systems as input. A .l file is read as a document of one plant, with the .v view beside it or
+/// the one that --view names.
 #include "cli/cli.h"
 
 #include <stdio.h>
@@ -13,129 +14,118 @@ static void print_text(void *user, const char *text) {
     fputs(text, stderr);
 }
 
-static FrStatus read_view(CliSession *session, const char *path, FrLview **view) {
-    char *beside = g_strdup(path);
-    beside[strlen(beside) - 1] = 'v';
-    const char *name = session->options->view;
-    if (name == NULL && g_file_test(beside, G_FILE_TEST_IS_REGULAR)) {
-        name = beside;
-    }
-    FrStatus status = FR_OK;
-    if (name != NULL) {
-        FrSource *source = fr_source_load(name, session->options->limits.document_bytes,
-                                          session->context.diags, &status);
-        if (source != NULL) {
-            char *folder = g_path_get_dirname(name);
-            status = fr_lview_read(source, folder, &session->context, view);
-            g_free(folder);
-            fr_source_unref(source);
+/// Whether --set names a number of the L-system itself and not an attribute of the document.
+static bool is_define(const char *set) {
+    return memchr(set, '.', strcspn(set, "=")) == NULL;
+}
+
+/// The document that a .l file stands for.
+static char *document_text(const CliSession *session, const char *path) {
+    char *file = g_path_get_basename(path);
+    GString *text = g_string_new(NULL);
+    char *part = g_markup_printf_escaped(
+        "<frond version=\"1\"><plant id=\"plant\"><lsystem file=\"%s\">", file);
+    g_string_append(text, part);
+    g_free(part);
+    for (guint i = 0; i < session->options->sets->len; i++) {
+        const char *set = g_ptr_array_index(session->options->sets, i);
+        if (is_define(set)) {
+            char *name = g_strndup(set, strcspn(set, "="));
+            part = g_markup_printf_escaped("<define id=\"%s\" value=\"%s\"/>", name,
+                                           strchr(set, '=') + 1);
+            g_string_append(text, part);
+            g_free(part);
+            g_free(name);
         }
     }
-    g_free(beside);
-    return status;
+    g_string_append(text, "</lsystem></plant></frond>");
+    g_free(file);
+    return g_string_free(text, FALSE);
 }
 
-static FrStatus read_system(CliSession *session, const char *path, CliLsystem *lsystem) {
+/// What is said of the document that nobody wrote has no place.
+static void pass_on(const FrDiags *from, const FrSource *unwritten, FrDiags *to) {
+    for (size_t i = 0; i < fr_diags_count(from); i++) {
+        const FrDiag *diag = fr_diags_get(from, i);
+        FrSpan span = diag->span.source == unwritten ? (FrSpan){0} : diag->span;
+        fr_diags_add(to, diag->severity, diag->code, span, "%s", diag->text);
+    }
+}
+
+FrStatus cli_lsystem_read(CliSession *session, const char *path, FrDocument **document) {
+    *document = NULL;
     FrStatus status;
-    FrSource *source = fr_source_load(path, session->options->limits.document_bytes,
-                                      session->context.diags, &status);
-    if (source == NULL) {
+    FrSource *file = fr_source_load(path, session->options->limits.document_bytes,
+                                    session->context.diags, &status);
+    if (file == NULL) {
         return status;
     }
-    char *folder = g_path_get_dirname(path);
-    FrLoptions options = {.folder = folder, .view = lsystem->view};
-    status = fr_lsystem_compile(source, &options, &session->context, &lsystem->system);
-    g_free(folder);
+    fr_source_unref(file);
+    char *text = document_text(session, path), *folder = g_path_get_dirname(path);
+    FrSource *source = fr_source_new(path, text, strlen(text));
+    FrContext inner = session->context;
+    inner.diags = fr_diags_new();
+    status = fr_document_parse(source, folder, &inner, document);
+    pass_on(inner.diags, source, session->context.diags);
+    fr_diags_free(inner.diags);
     fr_source_unref(source);
-    return status;
-}
-
-FrStatus cli_lsystem_open(CliSession *session, const char *path, CliLsystem *lsystem) {
-    double began = cli_now();
-    *lsystem = (CliLsystem){.simple = fr_lsimple_default()};
-    lsystem->simple.light = (vec3s){{0.6F, 0, 0.8F}}; // from one side, so that plants bend
-    FrStatus status = read_view(session, path, &lsystem->view);
-    if (status == FR_OK) {
-        status = read_system(session, path, lsystem);
-    }
-    if (status == FR_OK) {
-        lsystem->environment = fr_lsimple_environment(&lsystem->simple);
-        FrLsettings settings = fr_lsettings_default();
-        settings.seed = session->options->seed;
-        settings.steps = session->options->steps;
-        settings.view = lsystem->view;
-        settings.environment = &lsystem->environment;
-        settings.print = print_text;
-        status =
-            fr_lderivation_new(lsystem->system, &settings, &session->context, &lsystem->derivation);
-    }
-    session->read_seconds += cli_now() - began;
-    if (status != FR_OK) {
-        cli_lsystem_close(lsystem);
-    }
-    return status;
-}
-
-void cli_lsystem_close(CliLsystem *lsystem) {
-    fr_lderivation_free(lsystem->derivation);
-    fr_lsystem_free(lsystem->system);
-    fr_lview_free(lsystem->view);
-    *lsystem = (CliLsystem){0};
-}
-
-// What stands around a plant that no document describes: the defaults of everything.
-static FrStatus default_document(CliSession *session, const char *path, FrDocument **document) {
-    static const char text[] = "<frond version=\"1\"/>";
-    FrSource *source = fr_source_new(path, text, sizeof text - 1);
-    char *folder = g_path_get_dirname(path);
-    FrStatus status = fr_document_parse(source, folder, &session->context, document);
     g_free(folder);
-    fr_source_unref(source);
+    g_free(text);
     return status;
 }
 
-static FrStatus draw(CliSession *session, const char *path, CliLsystem *lsystem, FrPlant **plant) {
-    FrStatus status = fr_lderivation_run(
-        lsystem->derivation, fr_lderivation_length(lsystem->derivation), &session->context);
-    if (status == FR_OK) {
-        status = fr_lderivation_plant(lsystem->derivation, &session->context, plant, NULL);
-    }
-    if (status == FR_OK) {
-        char *name = g_path_get_basename(path);
-        name[strlen(name) - 2] = '\0';
-        g_free((*plant)->name);
-        (*plant)->name = name;
-    }
-    return status;
+bool cli_lsystem_takes(const char *path, const char *set) {
+    return cli_is_lsystem(path) && is_define(set);
 }
 
-FrStatus cli_lsystem_build(CliSession *session, const char *path, FrDocument **document,
-                           FrScene **scene) {
-    *document = NULL;
-    *scene = NULL;
-    if (session->options->sets->len > 0) {
-        cli_message("--set changes documents; an L-system has no attributes");
+/// Sets an attribute of every L-system of a document.
+static FrStatus set_all(CliSession *session, FrDocument *document, const char *attribute,
+                        const char *value) {
+    FrStatus status = FR_OK;
+    bool is_any = false;
+    for (guint i = 0; i < fr_document_plants(document)->len && status == FR_OK; i++) {
+        const FrPlantDef *plant = g_ptr_array_index(fr_document_plants(document), i);
+        if (plant->kind == FR_PLANT_LSYSTEM) {
+            char *target = g_strdup_printf("%s.lsystem.%s", plant->id, attribute);
+            status = fr_document_set(document, target, value, &session->context);
+            g_free(target);
+            is_any = true;
+        }
+    }
+    if (!is_any) {
+        cli_message("--%s is for L-systems, and there is none in the document", attribute);
         return FR_ERR_USAGE;
     }
-    CliLsystem lsystem;
-    FrStatus status = cli_lsystem_open(session, path, &lsystem);
-    if (status != FR_OK) {
-        return status;
-    }
-    double began = cli_now();
-    FrPlant *plant = NULL;
-    status = draw(session, path, &lsystem, &plant);
-    if (status == FR_OK) {
-        status = default_document(session, path, document);
-    }
-    if (status == FR_OK) {
-        uint64_t modules = fr_lstring_count(fr_lderivation_string(lsystem.derivation));
-        *scene =
-            fr_scene_of_plant(plant, modules, *document, (uint64_t)MAX(session->options->seed, 0));
-    } else {
-        fr_plant_free(plant);
-    }
-    cli_lsystem_close(&lsystem);
-    session->build_seconds += cli_now() - began;
     return status;
+}
+
+FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document) {
+    const CliOptions *options = session->options;
+    FrStatus status = FR_OK;
+    if (options->view != NULL) {
+        char *path = g_canonicalize_filename(options->view, NULL);
+        status = set_all(session, document, "view", path);
+        g_free(path);
+    }
+    if (options->steps >= 0 && status == FR_OK) {
+        char *steps = g_strdup_printf("%" G_GINT64_FORMAT, options->steps);
+        status = set_all(session, document, "steps", steps);
+        g_free(steps);
+    }
+    for (guint i = 0; i < fr_document_plants(document)->len && status == FR_OK; i++) {
+        const FrPlantDef *plant = g_ptr_array_index(fr_document_plants(document), i);
+        if (plant->kind == FR_PLANT_LSYSTEM) {
+            fr_lmodel_set_print(plant->lsystem, print_text, NULL);
+        }
+    }
+    return status;
+}
+
+void cli_lsystem_name(const char *path, FrScene *scene) {
+    for (guint i = 0; i < scene->plants->len; i++) {
+        FrPlant *plant = g_array_index(scene->plants, FrScenePlant, i).plant;
+        g_free(plant->name);
+        plant->name = g_path_get_basename(path);
+        plant->name[strlen(plant->name) - 2] = '\0';
+    }
 }

@@ -16,7 +16,7 @@ static const CliVerb verbs[] = {
     {CLI_PRESETS, "presets", "", "list the species that come with the program", cli_presets, 0, 0},
     {CLI_NEW, "new", "NAME --preset SPECIES", "begin a document NAME.frond from a species", cli_new,
      1, 1},
-    {CLI_DERIVE, "derive", "FILE.l", "derive an L-system and print its string", cli_derive, 1, 1},
+    {CLI_DERIVE, "derive", "FILE", "derive an L-system and print its string", cli_derive, 1, 1},
     {CLI_VARY, "vary", "DOC -o FOLDER", "make a collection of instances of a plant", cli_vary, 1,
      1},
     {CLI_SCHEMA, "schema", "", "print the XML Schema of documents", cli_schema, 0, 0},

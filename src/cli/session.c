@@ -122,13 +122,20 @@ static bool check_pictures_spared(const CliOptions *options, const FrDocument *d
 
 FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **document) {
     double began = cli_now();
-    FrStatus status = fr_document_load(path, &session->context, document);
+    FrStatus status = cli_is_lsystem(path) ? cli_lsystem_read(session, path, document)
+                                           : fr_document_load(path, &session->context, document);
     for (guint i = 0; i < session->options->sets->len && status == FR_OK; i++) {
         const char *set = g_ptr_array_index(session->options->sets, i);
+        if (cli_lsystem_takes(path, set)) {
+            continue;
+        }
         const char *equals = strchr(set, '=');
         char *name = g_strndup(set, (gsize)(equals - set));
         status = fr_document_set(*document, name, equals + 1, &session->context);
         g_free(name);
+    }
+    if (status == FR_OK) {
+        status = cli_lsystem_apply(session, *document);
     }
     if (status == FR_OK && !check_pictures_spared(session->options, *document)) {
         status = FR_ERR_USAGE;
@@ -144,9 +151,6 @@ FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **do
 FrStatus cli_session_build(CliSession *session, const char *path, FrDocument **document,
                            FrScene **scene) {
     *scene = NULL;
-    if (cli_is_lsystem(path)) {
-        return cli_lsystem_build(session, path, document, scene);
-    }
     FrStatus status = cli_session_read(session, path, document);
     if (status != FR_OK) {
         return status;
@@ -154,6 +158,9 @@ FrStatus cli_session_build(CliSession *session, const char *path, FrDocument **d
     double began = cli_now();
     status = fr_scene_build(*document, session->options->seed, &session->context, scene);
     session->build_seconds += cli_now() - began;
+    if (status == FR_OK && cli_is_lsystem(path)) {
+        cli_lsystem_name(path, *scene);
+    }
     if (status != FR_OK) {
         fr_document_free(*document);
         *document = NULL;

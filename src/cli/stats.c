@@ -8,7 +8,7 @@
 
 /// Counts of a scene, each plant as often as it stands there.
 typedef struct Totals {
-    uint64_t instances, plants, axes, nodes, organs, shapes;
+    uint64_t instances, modules, plants, axes, nodes, organs, shapes;
     json_t *by_component;
 } Totals;
 
@@ -24,10 +24,12 @@ static Totals count_scene(const FrScene *scene) {
         const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, index);
         const FrPlant *plant = built->plant;
         totals.instances += built->instances;
+        totals.modules += built->modules;
         totals.axes += plant->axes.count;
         totals.nodes += plant->nodes.count;
         totals.organs += plant->organs.count;
-        for (guint c = 0; c < plant->components->len; c++) {
+        // The components of an L-system are none of the document's.
+        for (guint c = 0; c < plant->components->len && built->modules == 0; c++) {
             add_component(totals.by_component, g_array_index(plant->components, FrComponent, c).id,
                           built->by_component[c]);
         }
@@ -79,8 +81,14 @@ static json_t *make_stats(const CliSession *session, const char *document, const
     char digest[17];
     g_snprintf(digest, sizeof digest, "%016" G_GINT64_MODIFIER "x", fr_scene_digest(scene));
     set_text(stats, "digest", digest);
-    set_count(stats, "instances", totals.instances);
-    json_object_set_new(stats, "by_component", totals.by_component);
+    if (totals.instances > 0) {
+        set_count(stats, "instances", totals.instances);
+        json_object_set(stats, "by_component", totals.by_component);
+    }
+    if (totals.modules > 0) {
+        set_count(stats, "modules", totals.modules);
+    }
+    json_decref(totals.by_component);
     set_count(stats, "plants", totals.plants);
     set_count(stats, "axes", totals.axes);
     set_count(stats, "nodes", totals.nodes);

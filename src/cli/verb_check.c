@@ -29,14 +29,6 @@ FrStatus cli_check(CliSession *session) {
         FrDocument *document = NULL;
         FrScene *scene = NULL;
         const char *path = g_ptr_array_index(files, i);
-        if (cli_is_lsystem(path)) {
-            FrStatus built = cli_lsystem_build(session, path, &document, &scene);
-            cli_session_flush(session);
-            fr_scene_free(scene);
-            fr_document_free(document);
-            worst = MAX(worst, built);
-            continue;
-        }
         FrStatus status = cli_session_read(session, path, &document);
         if (status == FR_OK) {
             status = check_pictures(session, document);

@@ -2,6 +2,7 @@
 #include "cli/cli.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static void print_string(const FrLderivation *derivation, bool is_count) {
     const FrLstring *string = fr_lderivation_string(derivation);
@@ -41,28 +42,58 @@ static FrStatus derive_open(CliSession *session, FrLderivation *derivation) {
     }
 }
 
-FrStatus cli_derive(CliSession *session) {
-    const char *path = g_ptr_array_index(session->options->files, 0);
-    CliLsystem lsystem;
-    FrStatus status = cli_lsystem_open(session, path, &lsystem);
+/// The L-system that is named, else the first; NULL with a message.
+static const FrPlantDef *find_lsystem(const CliSession *session, const FrDocument *document) {
+    const char *wanted = session->options->plant;
+    const GPtrArray *plants = fr_document_plants(document);
+    for (guint i = 0; i < plants->len; i++) {
+        const FrPlantDef *plant = g_ptr_array_index(plants, i);
+        if (plant->kind == FR_PLANT_LSYSTEM && (wanted == NULL || strcmp(plant->id, wanted) == 0)) {
+            return plant;
+        }
+    }
+    cli_message("there is no L-system %s%s%sin the document", wanted == NULL ? "" : "'",
+                wanted == NULL ? "" : wanted, wanted == NULL ? "" : "' ");
+    return NULL;
+}
+
+static FrStatus derive(CliSession *session, const FrPlantDef *plant) {
+    FrLsettings settings = fr_lmodel_settings(plant->lsystem);
+    int64_t own = plant->has_seed ? (int64_t)plant->seed : -1;
+    settings.seed = session->options->seed >= 0 ? session->options->seed : own;
+    FrLderivation *derivation;
+    FrStatus status = fr_lmodel_derive(plant->lsystem, &settings, &session->context, &derivation);
     if (status != FR_OK) {
         return status;
     }
-    if (fr_lsystem_is_open(lsystem.system)) {
-        status = derive_open(session, lsystem.derivation);
+    if (fr_lsystem_is_open(fr_lmodel_system(plant->lsystem))) {
+        status = derive_open(session, derivation);
     } else {
-        status = fr_lderivation_run(lsystem.derivation, fr_lderivation_length(lsystem.derivation),
-                                    &session->context);
+        status =
+            fr_lderivation_run(derivation, fr_lderivation_length(derivation), &session->context);
         if (status == FR_OK) {
-            print_string(lsystem.derivation, session->options->prints_count);
+            print_string(derivation, session->options->prints_count);
         }
     }
     if (status == FR_OK && session->options->is_verbose) {
         cli_message("%" G_GUINT64_FORMAT " steps, %" G_GUINT64_FORMAT " modules, %.3f s",
-                    fr_lderivation_step(lsystem.derivation),
-                    fr_lstring_count(fr_lderivation_string(lsystem.derivation)),
+                    fr_lderivation_step(derivation),
+                    fr_lstring_count(fr_lderivation_string(derivation)),
                     cli_now() - session->began);
     }
-    cli_lsystem_close(&lsystem);
+    fr_lderivation_free(derivation);
+    return status;
+}
+
+FrStatus cli_derive(CliSession *session) {
+    const char *path = g_ptr_array_index(session->options->files, 0);
+    FrDocument *document;
+    FrStatus status = cli_session_read(session, path, &document);
+    if (status != FR_OK) {
+        return status;
+    }
+    const FrPlantDef *plant = find_lsystem(session, document);
+    status = plant == NULL ? FR_ERR_USAGE : derive(session, plant);
+    fr_document_free(document);
     return status;
 }

@@ -10,7 +10,7 @@ typedef struct Grown {
     FrPlant *plant;
     FrPgraphCounts counts;
     CliChains *chains;
-    uint64_t seed;
+    uint64_t seed, modules;
 } Grown;
 
 static void clear_grown(Grown *grown) {
@@ -26,12 +26,14 @@ static FrStatus grow(const CliSession *session, const FrDocument *document,
     int64_t seed = session->options->seed;
     *grown =
         (Grown){.definition = definition, .seed = seed < 0 ? definition->seed : (uint64_t)seed};
-    FrPgraph *reseeded = seed < 0 ? NULL : fr_document_reseed(document, definition, (uint64_t)seed);
     uint32_t wanted = 0; // any address asks for the i-tree
     grown->counts.parent = &wanted;
-    FrStatus status = fr_pgraph_build(reseeded == NULL ? definition->pgraph : reseeded,
-                                      &session->context, &grown->plant, &grown->counts);
-    fr_pgraph_free(reseeded);
+    FrScenePlant plant;
+    FrStatus status =
+        fr_scene_grow(document, definition, seed, &session->context, &plant, &grown->counts);
+    grown->plant = plant.plant;
+    grown->modules = plant.modules;
+    g_free(plant.by_component);
     if (grown->counts.parent == &wanted) {
         grown->counts.parent = NULL;
     }
@@ -102,19 +104,22 @@ static json_t *sliders_json(const FrPlantDef *definition) {
 }
 
 static void print_plant(const Grown *grown) {
-    char *instances = cli_count_text(grown->counts.instances);
+    bool is_lsystem = grown->definition->kind == FR_PLANT_LSYSTEM;
+    char *made = cli_count_text(is_lsystem ? grown->modules : grown->counts.instances);
     char *axes = cli_count_text(grown->plant->axes.count);
     char *nodes = cli_count_text(grown->plant->nodes.count);
     char *organs = cli_count_text(grown->plant->organs.count);
-    printf("plant %s, seed %" G_GUINT64_FORMAT ": %s instances, %s axes, %s nodes, %s organs of "
+    printf("plant %s, seed %" G_GUINT64_FORMAT ": %s %s, %s axes, %s nodes, %s organs of "
            "%u shapes, digest %016" G_GINT64_MODIFIER "x\n",
-           grown->definition->id, grown->seed, instances, axes, nodes, organs,
-           grown->plant->shapes->len, fr_plant_digest(grown->plant));
-    g_free(instances);
+           grown->definition->id, grown->seed, made, is_lsystem ? "modules" : "instances", axes,
+           nodes, organs, grown->plant->shapes->len, fr_plant_digest(grown->plant));
+    g_free(made);
     g_free(axes);
     g_free(nodes);
     g_free(organs);
-    print_components(grown);
+    if (!is_lsystem) {
+        print_components(grown);
+    }
     print_sliders(grown->definition);
 }
 
@@ -140,13 +145,19 @@ static json_t *components_json(const Grown *grown) {
 static json_t *plant_json(const Grown *grown) {
     char digest[17];
     g_snprintf(digest, sizeof digest, "%016" G_GINT64_MODIFIER "x", fr_plant_digest(grown->plant));
-    return json_pack(
-        "{s:s, s:I, s:s, s:I, s:I, s:I, s:I, s:I, s:o, s:o}", "id", grown->definition->id, "seed",
-        (json_int_t)grown->seed, "digest", digest, "instances", (json_int_t)grown->counts.instances,
-        "axes", (json_int_t)grown->plant->axes.count, "nodes",
-        (json_int_t)grown->plant->nodes.count, "organs", (json_int_t)grown->plant->organs.count,
-        "shapes", (json_int_t)grown->plant->shapes->len, "components", components_json(grown),
-        "sliders", sliders_json(grown->definition));
+    json_t *plant = json_pack(
+        "{s:s, s:I, s:s, s:I, s:I, s:I, s:I}", "id", grown->definition->id, "seed",
+        (json_int_t)grown->seed, "digest", digest, "axes", (json_int_t)grown->plant->axes.count,
+        "nodes", (json_int_t)grown->plant->nodes.count, "organs",
+        (json_int_t)grown->plant->organs.count, "shapes", (json_int_t)grown->plant->shapes->len);
+    if (grown->definition->kind == FR_PLANT_LSYSTEM) {
+        json_object_set_new(plant, "modules", json_integer((json_int_t)grown->modules));
+    } else {
+        json_object_set_new(plant, "instances", json_integer((json_int_t)grown->counts.instances));
+        json_object_set_new(plant, "components", components_json(grown));
+    }
+    json_object_set_new(plant, "sliders", sliders_json(grown->definition));
+    return plant;
 }
 
 /// A varied plant has the components of its base; what is told is which base that is.

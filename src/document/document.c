@@ -6,6 +6,7 @@
 static void free_plant(void *data) {
     FrPlantDef *plant = data;
     fr_pgraph_free(plant->pgraph);
+    fr_lmodel_free(plant->lsystem);
     fr_vary_free(plant->vary);
     g_ptr_array_unref(plant->sliders);
     g_free(plant->id);
@@ -80,6 +81,7 @@ static bool check_version(FrReader *reader, uint32_t root) {
 FrStatus fr_document_read(FrDocument *document, const FrContext *context) {
     FrReader reader;
     fr_reader_open(&reader, document, context->diags);
+    reader.context = context;
     uint32_t root = document->tree->root;
     FrXmlRange name = document->tree->nodes[root].name;
     if (!fr_xml_equals(document->tree, name, "frond")) {

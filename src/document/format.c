@@ -17,6 +17,9 @@ static const FrParam plant_rows[] = {FR_PLANT_PARAMS(FR_PARAM_ROW)};
 #define FR_PARAM_STRUCT FrSlider
 static const FrParam slider_rows[] = {FR_SLIDER_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrDefineParams
+static const FrParam define_rows[] = {FR_DEFINE_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
 #define FR_PARAM_STRUCT FrLinkParams
 static const FrParam link_rows[] = {FR_LINK_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
@@ -42,6 +45,7 @@ TABLE(function, FrFunctionParams, "a function for expressions; its text is the e
 TABLE(plant, FrPlantParams, "a plant");
 TABLE(slider, FrSlider,
       "a number that the numbers of its plant may use by its id: one handle for many attributes");
+TABLE(define, FrDefineParams, "a number that an L-system knows by this name");
 TABLE(link, FrLinkParams, "where one component is made, another is made on it");
 TABLE(scene, FrSceneParams, "where plants stand and how they are lit and seen");
 TABLE(place, FrPlace, "a plant that stands somewhere");
@@ -84,7 +88,7 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
     [FR_ELEMENT_PLANT] = {.name = "plant",
                           .table = &plant_table,
                           .has_id = true,
-                          .children = SET(SLIDER) | SET(PGRAPH) | SET(VARY)},
+                          .children = SET(SLIDER) | SET(PGRAPH) | SET(LSYSTEM) | SET(VARY)},
     [FR_ELEMENT_SLIDER] = {.name = "slider", .table = &slider_table, .has_id = true},
     [FR_ELEMENT_PGRAPH] = {.name = "pgraph",
                            .meaning = "linked components that are expanded to a plant "
@@ -92,6 +96,14 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                            .is_once = true,
                            .children = SET(LINK) | COMPONENTS},
     [FR_ELEMENT_LINK] = {.name = "link", .table = &link_table, .required = "from to"},
+    [FR_ELEMENT_LSYSTEM] = {.name = "lsystem",
+                            .is_once = true,
+                            .has_text = true,
+                            .children = SET(DEFINE)},
+    [FR_ELEMENT_DEFINE] = {.name = "define",
+                           .table = &define_table,
+                           .has_id = true,
+                           .required = "value"},
     [FR_ELEMENT_VARY] = {.name = "vary",
                          .is_once = true,
                          .required = "base",
@@ -116,6 +128,8 @@ FrElement fr_element(FrElementId id) {
     }
     if (id == FR_ELEMENT_MATERIAL) {
         element.table = fr_material_table();
+    } else if (id == FR_ELEMENT_LSYSTEM) {
+        element.table = fr_lsystem_table();
     } else if (id == FR_ELEMENT_VARY) {
         element.table = fr_vary_table();
     } else if (id == FR_ELEMENT_STROKE) {

@@ -14,6 +14,8 @@ typedef enum FrElementId {
     FR_ELEMENT_SLIDER,
     FR_ELEMENT_PGRAPH,
     FR_ELEMENT_LINK,
+    FR_ELEMENT_LSYSTEM,
+    FR_ELEMENT_DEFINE,
     FR_ELEMENT_VARY,
     FR_ELEMENT_STROKE,
     FR_ELEMENT_INDICATOR,
@@ -59,6 +61,7 @@ enum { FR_DOCUMENT_VERSION = 1 };
     X(TEXT, parameters, "", 0, 0, "", "", "names of its parameters, separated by blanks")
 #define FR_PLANT_PARAMS(X)                                                                         \
     X(INTEGER, seed, "1", 0, 4294967295.0, "", "", "seed of everything random in the plant")
+#define FR_DEFINE_PARAMS(X) X(NUMBER, value, "0", -1e30, 1e30, "", "", "its value")
 #define FR_LINK_PARAMS(X)                                                                          \
     X(TEXT, from, "", 0, 0, "", "", "id of the component that makes")                              \
     X(TEXT, to, "", 0, 0, "", "", "id of the component that is made")                              \
@@ -78,6 +81,9 @@ typedef struct FrFunctionParams {
 typedef struct FrPlantParams {
     FR_PLANT_PARAMS(FR_PARAM_FIELD)
 } FrPlantParams;
+typedef struct FrDefineParams {
+    FR_DEFINE_PARAMS(FR_PARAM_FIELD)
+} FrDefineParams;
 typedef struct FrLinkParams {
     FR_LINK_PARAMS(FR_PARAM_FIELD)
 } FrLinkParams;

@@ -8,8 +8,15 @@ typedef struct GraphReader {
     GHashTable *materials;  ///< set of the FrMaterial * that the graph knows
 } GraphReader;
 
-static void report_unknown_material(FrReader *reader, uint32_t node, const FrParam *row,
-                                    const char *id) {
+FrMaterial *fr_read_material(FrReader *reader, uint32_t node, const char *attribute,
+                             const char *id) {
+    if (id == NULL || *id == '\0') {
+        return NULL;
+    }
+    FrMaterial *material = g_hash_table_lookup(reader->material_ids, id);
+    if (material != NULL) {
+        return material;
+    }
     const GPtrArray *materials = reader->document->materials;
     uint32_t count = fr_read_candidates(materials->len);
     const char **names = g_new(const char *, count + 1);
@@ -17,12 +24,11 @@ static void report_unknown_material(FrReader *reader, uint32_t node, const FrPar
         names[i] = fr_material_name(g_ptr_array_index(materials, i));
     }
     char *hint = fr_read_hint(reader, id, names, count);
-    char *attribute = fr_param_attribute(row);
     fr_read_error(reader, "unknown-material", fr_read_value_place(reader, node, attribute),
                   "there is no material '%.64s'%s", id, hint);
-    g_free(attribute);
     g_free(hint);
     g_free(names);
+    return NULL;
 }
 
 /// Hands the graph the materials that a component names.
@@ -35,13 +41,10 @@ static void add_materials(GraphReader *graph, uint32_t node, const FrParamTable 
             continue;
         }
         const char *id = *(char *const *)(const void *)((const char *)params + row->offset);
-        if (id == NULL || *id == '\0') {
-            continue;
-        }
-        FrMaterial *material = g_hash_table_lookup(reader->material_ids, id);
-        if (material == NULL) {
-            report_unknown_material(reader, node, row, id);
-        } else if (g_hash_table_add(graph->materials, material)) {
+        char *attribute = fr_param_attribute(row);
+        FrMaterial *material = fr_read_material(reader, node, attribute, id);
+        g_free(attribute);
+        if (material != NULL && g_hash_table_add(graph->materials, material)) {
             fr_pgraph_add_material(graph->graph, material);
         }
     }

@@ -1,6 +1,44 @@
 /// `<plant>`: an id, a seed, and one engine's definition within.
 #include "document/reader.h"
 
+/// The one engine's definition of a plant.
+static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) {
+    static const struct {
+        FrElementId element;
+        FrPlantKind kind;
+    } engines[] = {{FR_ELEMENT_PGRAPH, FR_PLANT_PGRAPH},
+                   {FR_ELEMENT_LSYSTEM, FR_PLANT_LSYSTEM},
+                   {FR_ELEMENT_VARY, FR_PLANT_VARIED}};
+    uint32_t definition = FR_NONE;
+    const char *first = NULL;
+    for (size_t i = 0; i < G_N_ELEMENTS(engines); i++) {
+        uint32_t found = fr_read_first(reader, node, engines[i].element);
+        if (found != FR_NONE && definition != FR_NONE) {
+            fr_read_error(reader, "two-definitions", reader->tree->nodes[found].name,
+                          "the plant '%s' has a <%s> already", plant->id, first);
+        } else if (found != FR_NONE) {
+            definition = found;
+            first = fr_element(engines[i].element).name;
+            plant->kind = engines[i].kind;
+        }
+    }
+    if (definition == FR_NONE) {
+        fr_read_error(reader, "missing-element", reader->tree->nodes[node].name,
+                      "the plant '%s' has no <pgraph>, no <lsystem> and no <vary>", plant->id);
+    } else if (plant->kind == FR_PLANT_VARIED) {
+        if (plant->sliders->len > 0) {
+            fr_read_error(reader, "misplaced-element", reader->tree->nodes[definition].name,
+                          "the sliders of a varied plant are those of the plant it is made from");
+        }
+        plant->vary = fr_read_vary(reader, definition);
+    } else if (plant->kind == FR_PLANT_LSYSTEM) {
+        plant->lsystem = fr_read_lsystem(reader, definition);
+    } else {
+        fr_read_pgraph(reader, definition, plant->pgraph);
+        fr_read_check_sliders(reader, node, plant->pgraph);
+    }
+}
+
 static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
     FrPlantParams params;
     const FrParamTable *table = fr_element(FR_ELEMENT_PLANT).table;
@@ -17,25 +55,8 @@ static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
     plant->sliders = fr_read_sliders(reader, node, scope);
     reader->scope = scope;
     plant->pgraph = fr_pgraph_new(id, plant->seed);
-    uint32_t graph = fr_read_first(reader, node, FR_ELEMENT_PGRAPH);
-    uint32_t vary = fr_read_first(reader, node, FR_ELEMENT_VARY);
-    if (graph == FR_NONE && vary == FR_NONE) {
-        fr_read_error(reader, "missing-element", reader->tree->nodes[node].name,
-                      "the plant '%s' has no <pgraph> and no <vary>", id);
-    } else if (graph != FR_NONE && vary != FR_NONE) {
-        fr_read_error(reader, "two-definitions", reader->tree->nodes[vary].name,
-                      "the plant '%s' is a <pgraph> already", id);
-    } else if (vary != FR_NONE) {
-        plant->kind = FR_PLANT_VARIED;
-        if (plant->sliders->len > 0) {
-            fr_read_error(reader, "misplaced-element", reader->tree->nodes[vary].name,
-                          "the sliders of a varied plant are those of the plant it is made from");
-        }
-        plant->vary = fr_read_vary(reader, vary);
-    } else {
-        fr_read_pgraph(reader, graph, plant->pgraph);
-        fr_read_check_sliders(reader, node, plant->pgraph);
-    }
+    plant->has_seed = fr_xml_attribute(reader->tree, node, "seed") != NULL;
+    read_definition(reader, node, plant);
     reader->scope = reader->document->scope;
     fr_scope_free(scope);
     return plant;

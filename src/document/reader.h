@@ -18,6 +18,7 @@ typedef struct FrReader {
     FrDocument *document;
     const FrXmlTree *tree;
     FrDiags *diags;
+    const FrContext *context; ///< NULL: nothing but the tree may be read
     FrStatus status;          ///< the worst so far
     GHashTable *material_ids; ///< id → FrMaterial *
     GHashTable *plant_ids;    ///< id → FrPlantDef *
@@ -41,12 +42,20 @@ GPtrArray *fr_read_sliders(FrReader *reader, uint32_t plant, FrScope *scope);
 /// Reports sliders and components of one name, which `--set` could not tell apart.
 void fr_read_check_sliders(FrReader *reader, uint32_t plant, const FrPgraph *graph);
 void fr_read_pgraph(FrReader *reader, uint32_t node, FrPgraph *graph);
+/// Reads an `<lsystem>` and compiles it.
+FrLmodel *fr_read_lsystem(FrReader *reader, uint32_t node);
 /// Reads a `<vary>`; NULL after an error that leaves nothing of it.
 FrVary *fr_read_vary(FrReader *reader, uint32_t node);
 /// Reports varied plants whose base is no other plant.
 void fr_read_check_bases(FrReader *reader);
 void fr_read_scenes(FrReader *reader, uint32_t parent);
 
+/// The material of that id, which an attribute names; NULL for none, or with an error.
+FrMaterial *fr_read_material(FrReader *reader, uint32_t node, const char *attribute,
+                             const char *id);
+/// The text within an element as a source of its own, whose places are those of the document; NULL
+/// if there is nothing but blanks.
+FrSource *fr_read_source(const FrReader *reader, uint32_t node);
 /// The text within an element and its place, from its first to its last text or CDATA section.
 /// Free with g_free().
 char *fr_read_text(const FrReader *reader, uint32_t node, FrXmlRange *place);

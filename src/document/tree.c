@@ -112,6 +112,21 @@ char *fr_xml_decode(const FrXmlTree *tree, FrXmlRange range, bool is_value) {
     return g_string_free(out, FALSE);
 }
 
+void fr_xml_decode_text(const FrXmlTree *tree, FrXmlRange range, GString *out, GArray *origins) {
+    const char *text = fr_source_text(tree->source, NULL);
+    for (uint32_t at = range.begin; at < range.end;) {
+        size_t used = text[at] == '&' ? decode_reference(text + at, range.end - at, out) : 0;
+        if (used == 0) {
+            g_string_append_c(out, text[at]);
+            used = 1;
+        }
+        while (origins->len < out->len) {
+            g_array_append_val(origins, at);
+        }
+        at += (uint32_t)used;
+    }
+}
+
 const FrXmlAttribute *fr_xml_attribute(const FrXmlTree *tree, uint32_t node, const char *name) {
     const FrXmlNode *element = &tree->nodes[node];
     for (uint32_t i = 0; i < element->attribute_count; i++) {

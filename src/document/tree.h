@@ -61,6 +61,8 @@ char *fr_xml_name(const FrXmlTree *tree, FrXmlRange range);
 /// What a value or text means: references resolved, in values white space made blanks. Free with
 /// g_free(). Without references every byte keeps its offset.
 char *fr_xml_decode(const FrXmlTree *tree, FrXmlRange range, bool is_value);
+/// Appends what a text means to `out` and where each byte of that stands to `origins` (uint32_t).
+void fr_xml_decode_text(const FrXmlTree *tree, FrXmlRange range, GString *out, GArray *origins);
 /// The attribute of that name, or NULL.
 const FrXmlAttribute *fr_xml_attribute(const FrXmlTree *tree, uint32_t node, const char *name);
 /// The next element among `node` and its later siblings, FR_NONE if there is none.

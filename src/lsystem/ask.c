@@ -2,6 +2,7 @@
 // parameters become one batch of queries in the order of the string.
 #include "lsystem/ask.h"
 
+#include <cglm/struct.h>
 #include <math.h>
 
 typedef struct Pass {
@@ -41,6 +42,7 @@ static void add_query(Pass *pass, uint32_t *module, uint64_t asked, uint64_t ori
     const FrLpose *pose = &pass->turtle.pose;
     const FrLstring *string = pass->derivation->string;
     const uint32_t *next = module + 1 + fr_lhead_count(*module);
+    float unit = (float)pass->derivation->settings.unit;
     bool is_last = next >= string->words + string->count;
     FrLquery query = {.symbol = (char)fr_lhead_symbol(*module),
                       .following = is_last ? '\0' : (char)fr_lhead_symbol(*next),
@@ -48,7 +50,7 @@ static void add_query(Pass *pass, uint32_t *module, uint64_t asked, uint64_t ori
                       .asked = asked,
                       .parameters = (float *)(void *)(module + 1),
                       .module = origin,
-                      .position = fr_lturtle_world(pose->position),
+                      .position = glms_vec3_scale(fr_lturtle_world(pose->position), unit),
                       .heading = fr_lturtle_world(pose->heading),
                       .left = fr_lturtle_world(pose->left),
                       .up = fr_lturtle_world(pose->up),

@@ -9,12 +9,16 @@
 // Nodes are appended to the plant by so many at once.
 #define BLOCK 1024
 
-static uint32_t add_material(FrPlant *plant, const char *name, float r, float g, float b,
-                             float translucency) {
+/// A material: that of the settings, none where it is inherited, or one of its own.
+static uint32_t add_material(FrPlant *plant, FrMaterial *given, bool inherits, const char *name,
+                             vec3s colour, double translucency) {
+    if (given != NULL || inherits) {
+        return given == NULL ? FR_NONE : fr_plant_add_material(plant, given);
+    }
     FrMaterialParams params;
     fr_params_init(fr_material_table(), &params);
-    params.colour = (vec3s){{r, g, b}};
-    params.translucency = (double)translucency;
+    params.colour = colour;
+    params.translucency = translucency;
     FrMaterial *material = fr_material_new(name, &params, NULL, (FrSpan){0});
     fr_params_clear(fr_material_table(), &params);
     uint32_t index = fr_plant_add_material(plant, material);
@@ -30,8 +34,16 @@ FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *co
     builder->status = FR_OK;
     builder->segment_component = fr_plant_add_component(builder->plant, "F", (FrSpan){0});
     builder->organ_component = fr_plant_add_component(builder->plant, "organs", (FrSpan){0});
-    builder->wood = add_material(builder->plant, "wood", 0.42F, 0.33F, 0.24F, 0);
-    builder->leaf = add_material(builder->plant, "leaf", 0.30F, 0.48F, 0.16F, 0.35F);
+    const FrLsettings *settings = &derivation->settings;
+    builder->wood = add_material(builder->plant, settings->axes, settings->inherits, "wood",
+                                 (vec3s){{0.42F, 0.33F, 0.24F}}, 0);
+    builder->leaf = add_material(builder->plant, settings->organs, settings->inherits, "leaf",
+                                 (vec3s){{0.30F, 0.48F, 0.16F}}, 0.35);
+    builder->unit = settings->unit;
+    builder->sites = settings->sites;
+    for (const char *site = builder->sites; site != NULL && *site != '\0'; site++) {
+        fr_plant_add_component(builder->plant, (char[]){*site, '\0'}, (FrSpan){0});
+    }
     for (int k = 0; k < 3; k++) {
         builder->drawn.min[k] = INFINITY;
         builder->drawn.max[k] = -INFINITY;
@@ -63,11 +75,30 @@ static void scale_pixels(FrLbuilder *builder) {
     }
 }
 
+/// From units of the file to metres.
+static void scale_units(FrPlant *plant, float unit) {
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        plant->nodes.length[i] *= unit;
+        plant->nodes.radius[i] *= unit;
+    }
+    for (uint32_t i = 0; i < plant->axes.count; i++) {
+        plant->axes.base_radius[i] *= unit;
+        plant->axes.offset[i] = glms_vec3_scale(plant->axes.offset[i], unit);
+    }
+    for (uint32_t i = 0; i < plant->organs.count; i++) {
+        plant->organs.offset[i] = glms_vec3_scale(plant->organs.offset[i], unit);
+        plant->organs.scale[i] *= unit;
+    }
+}
+
 FrPlant *fr_lbuilder_end(FrLbuilder *builder) {
     FrPlant *plant = builder->plant;
     plant->nodes.count = builder->nodes;
     if (builder->view->style == FR_LSTYLE_PIXEL) {
         scale_pixels(builder);
+    }
+    if (builder->unit != 1) {
+        scale_units(plant, (float)builder->unit);
     }
     fr_plant_update_frames(plant, 0);
     builder->plant = NULL;
@@ -234,4 +265,15 @@ void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at
     organs->material[organ] = material;
     organs->component[organ] = builder->organ_component;
     organs->path[organ] = fr_key_child(fr_key_root(1), organ);
+}
+
+void fr_lbuilder_site(FrLbuilder *builder, const FrLpose *pose, char symbol, double scale) {
+    const char *site = strchr(builder->sites, symbol);
+    uint32_t before = builder->plant->organs.count;
+    // What is placed has its own unit, whatever that of the file is.
+    fr_lbuilder_organ(builder, pose, pose->position, FR_NONE, scale / builder->unit, FR_NONE);
+    if (builder->plant->organs.count > before) {
+        builder->plant->organs.component[before] =
+            builder->organ_component + 1 + (uint32_t)(site - builder->sites);
+    }
 }

@@ -13,6 +13,8 @@ struct FrLbuilder {
     uint32_t nodes; ///< in use; the plant has some more
     uint32_t segment_component, organ_component;
     uint32_t wood, leaf; ///< materials
+    double unit;         ///< metres of one unit of the file
+    const char *sites;   ///< symbols that place something, NULL
 };
 
 FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *context);
@@ -21,6 +23,8 @@ FrPlant *fr_lbuilder_end(FrLbuilder *builder);
 void fr_lbuilder_free(FrLbuilder *builder);
 /// Appends an internode where the pose stands; the pose then stands on it.
 void fr_lbuilder_segment(FrLbuilder *builder, FrLpose *pose, const FrLsegment *segment);
+/// Places something where the turtle is: an organ without a shape, of the symbol's component.
+void fr_lbuilder_site(FrLbuilder *builder, const FrLpose *pose, char symbol, double scale);
 /// A frame of the plant from the turtle's axes.
 versors fr_lbuilder_frame(const double heading[3], const double left[3]);
 /// Places an organ of a shape at a point with the turtle's axes.

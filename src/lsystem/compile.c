@@ -32,9 +32,13 @@ static void unit_free(gpointer data) {
 
 void fr_lparse_begin_unit(FrLparser *parser) {
     FrLunit *unit = g_new0(FrLunit, 1);
-    unit->variables = FR_LVAR_FIRST;
+    unit->variables = FR_LVAR_FIRST + (uint32_t)parser->value_count;
     unit->globals = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
     g_hash_table_insert(unit->globals, g_strdup("Q"), GUINT_TO_POINTER(FR_LVAR_Q + 1));
+    for (size_t i = 0; i < parser->value_count; i++) {
+        g_hash_table_insert(unit->globals, g_strdup(parser->values[i].name),
+                            GUINT_TO_POINTER(FR_LVAR_FIRST + i + 1));
+    }
     unit->externals = g_array_new(FALSE, FALSE, sizeof(FrLexternal));
     g_array_set_clear_func(unit->externals, external_clear);
     unit->initializers = g_array_new(FALSE, FALSE, sizeof(uint32_t));
@@ -88,6 +92,7 @@ static FrLsystem *system_new(FrLtext *text) {
     g_array_set_clear_func(system->functions, function_clear);
     system->strings = g_ptr_array_new_with_free_func(g_free);
     system->units = g_ptr_array_new_with_free_func(unit_free);
+    system->values = g_array_new(FALSE, FALSE, sizeof(double));
     return system;
 }
 
@@ -96,9 +101,9 @@ void fr_lsystem_free(FrLsystem *system) {
         return;
     }
     fr_ltext_free(system->text);
-    GArray *const arrays[] = {system->code,    system->places,   system->patterns,
-                              system->formals, system->words,    system->productions,
-                              system->arrays,  system->functions};
+    GArray *const arrays[] = {system->code,    system->places,    system->patterns,
+                              system->formals, system->words,     system->productions,
+                              system->arrays,  system->functions, system->values};
     for (size_t i = 0; i < G_N_ELEMENTS(arrays); i++) {
         g_array_unref(arrays[i]);
     }
@@ -115,6 +120,24 @@ static bool begins_as_cpfg(const FrLtext *text) {
     return g_ascii_strncasecmp(c, "lsystem", 7) == 0 || g_ascii_strncasecmp(c, "l-system", 8) == 0;
 }
 
+/// Values that nothing in the file asks for are slips of the finger.
+static void report_unused(FrLparser *parser) {
+    const GPtrArray *defined = parser->text->defined;
+    for (size_t i = 0; i < parser->value_count; i++) {
+        const FrLvalue *value = &parser->values[i];
+        if (parser->is_used[i] || g_hash_table_contains(parser->text->held, value->name)) {
+            continue;
+        }
+        const char *near = fr_nearest_name(value->name, (const char *const *)defined->pdata,
+                                           MIN(defined->len, 1000));
+        fr_diags_add(parser->context->diags, FR_ERROR, "unused-value", value->span,
+                     "nothing in the L-system is called '%.64s'%s%s%s", value->name,
+                     near == NULL ? "" : "; did you mean '", near == NULL ? "" : near,
+                     near == NULL ? "" : "'?");
+        parser->errors++;
+    }
+}
+
 static FrStatus parse(FrLsystem *system, const FrLoptions *options, const FrContext *context) {
     const GString *bytes = system->text->bytes;
     FrLparser parser = {.system = system,
@@ -122,7 +145,13 @@ static FrStatus parse(FrLsystem *system, const FrLoptions *options, const FrCont
                         .bytes = bytes->str,
                         .size = bytes->len,
                         .context = context,
+                        .values = options->values,
+                        .value_count = options->value_count,
+                        .is_used = g_new0(bool, options->value_count + 1),
                         .is_round = options->round_brackets};
+    for (size_t i = 0; i < options->value_count; i++) {
+        g_array_append_val(system->values, options->values[i].value);
+    }
     system->is_paper = options->notation == FR_LNOTATION_PAPER ||
                        (options->notation == FR_LNOTATION_AUTO && !begins_as_cpfg(system->text));
     if (system->is_paper) {
@@ -133,7 +162,19 @@ static FrStatus parse(FrLsystem *system, const FrLoptions *options, const FrCont
             fr_lparse_error(&parser, 0, 1, "syntax", "there is no 'Lsystem:' in this file");
         }
     }
+    report_unused(&parser);
+    g_free(parser.is_used);
     return parser.errors == 0 ? FR_OK : FR_ERR_DOCUMENT;
+}
+
+/// What the text may know from the start: the functions of the view, the values set from outside.
+static FrLname *known_names(const FrLoptions *options, size_t *count) {
+    FrLname *names = fr_lview_names(options->view, count);
+    names = g_renew(FrLname, names, *count + options->value_count + 1);
+    for (size_t i = 0; i < options->value_count; i++) {
+        names[(*count)++] = (FrLname){options->values[i].name, 0, true};
+    }
+    return names;
 }
 
 FrStatus fr_lsystem_compile(FrSource *source, const FrLoptions *options, const FrContext *context,
@@ -143,7 +184,7 @@ FrStatus fr_lsystem_compile(FrSource *source, const FrLoptions *options, const F
     options = options == NULL ? &plain : options;
     FrStatus status;
     size_t count = 0;
-    FrLname *names = fr_lview_names(options->view, &count);
+    FrLname *names = known_names(options, &count);
     FrLtext *text = fr_ltext_new(source, options->folder, names, count, context, &status);
     g_free(names);
     if (text == NULL) {

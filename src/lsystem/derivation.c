@@ -10,7 +10,7 @@
 #define MOST_VARIABLES 64000000
 
 FrLsettings fr_lsettings_default(void) {
-    return (FrLsettings){.seed = -1, .steps = -1};
+    return (FrLsettings){.seed = -1, .steps = -1, .unit = 1};
 }
 
 const FrLunit *fr_lsystem_unit(const FrLsystem *system, double id) {
@@ -24,6 +24,13 @@ const FrLunit *fr_lsystem_unit(const FrLsystem *system, double id) {
 }
 
 // ---- instances --------------------------------------------------------------------------------
+
+/// The state that a seed from outside begins with. The streams of files know 16 or 32 bits of a
+/// seed; of larger ones every bit counts.
+static uint64_t seed_of(const FrLderivation *derivation, uint64_t plain) {
+    uint64_t seed = (uint64_t)derivation->settings.seed;
+    return seed <= 0xFFFF ? plain : fr_key_root(seed) & ((UINT64_C(1) << 48) - 1);
+}
 
 uint32_t fr_linstance_new(FrLderivation *derivation, const FrLunit *unit,
                           const FrContext *context) {
@@ -43,6 +50,9 @@ uint32_t fr_linstance_new(FrLderivation *derivation, const FrLunit *unit,
     FrLinstance *instance = g_new0(FrLinstance, 1);
     instance->unit = unit;
     instance->variables = g_new0(double, unit->variables);
+    for (guint i = 0; i < derivation->system->values->len; i++) {
+        instance->variables[FR_LVAR_FIRST + i] = derivation->settings.values[i];
+    }
     derivation->variables = variables;
     if (slot == instances->len) {
         g_ptr_array_add(instances, instance);
@@ -162,10 +172,10 @@ static FrStatus make_axiom(FrLderivation *derivation, const FrContext *context) 
 static void seed_choice(FrLderivation *derivation, const FrLunit *unit) {
     double seed =
         unit->seed == FR_NONE ? 0 : trunc(fr_lmachine_run(&derivation->machine, unit->seed));
-    if (unit->is_stochastic && derivation->settings.seed >= 0) {
-        seed = (double)derivation->settings.seed;
-    }
-    derivation->random = fr_lrandom_seed_a(isfinite(seed) ? (int64_t)CLAMP(seed, -9e18, 9e18) : 0);
+    bool is_given = unit->is_stochastic && derivation->settings.seed >= 0;
+    derivation->random =
+        is_given ? seed_of(derivation, fr_lrandom_seed_a(derivation->settings.seed))
+                 : fr_lrandom_seed_a(isfinite(seed) ? (int64_t)CLAMP(seed, -9e18, 9e18) : 0);
 }
 
 static FrStatus begin(FrLderivation *derivation, const FrContext *context) {
@@ -199,6 +209,11 @@ FrStatus fr_lderivation_new(const FrLsystem *system, const FrLsettings *settings
     FrLderivation *derivation = g_new0(FrLderivation, 1);
     derivation->system = system;
     derivation->settings = settings == NULL ? fr_lsettings_default() : *settings;
+    if (derivation->settings.values == NULL) {
+        derivation->settings.values = (const double *)(const void *)system->values->data;
+    }
+    derivation->settings.values =
+        g_memdup2(derivation->settings.values, system->values->len * sizeof(double));
     derivation->default_view = derivation->settings.view == NULL ? fr_lview_new() : NULL;
     derivation->view =
         derivation->settings.view == NULL ? derivation->default_view : derivation->settings.view;
@@ -214,6 +229,11 @@ FrStatus fr_lderivation_new(const FrLsystem *system, const FrLsettings *settings
                                        .most_loops = context->limits.iterations,
                                        .print = derivation->settings.print,
                                        .print_user = derivation->settings.print_user};
+    if (derivation->settings.seed >= 0) {
+        uint64_t state = fr_lrandom_seed_b(derivation->settings.seed);
+        derivation->machine.random =
+            (FrLrandom){.state = seed_of(derivation, state), .is_seeded = true};
+    }
     FrStatus status = begin(derivation, context);
     if (status != FR_OK) {
         fr_lderivation_free(derivation);
@@ -240,6 +260,7 @@ void fr_lderivation_free(FrLderivation *derivation) {
     fr_lstring_free(derivation->string);
     fr_lstring_free(derivation->other);
     fr_lview_free(derivation->default_view);
+    g_free((double *)derivation->settings.values);
     g_free(derivation);
 }
 

@@ -12,7 +12,10 @@ typedef struct FrLparser {
     size_t at, size;
     const FrContext *context;
     FrLunit *unit;
-    GHashTable *locals;  ///< of the production: name → variable + 1; NULL outside
+    GHashTable *locals;     ///< of the production: name → variable + 1; NULL outside
+    const FrLvalue *values; ///< set from outside
+    size_t value_count;
+    bool *is_used;       ///< of each of them
     GHashTable *formals; ///< names bound by its predecessor, a subset of locals
     size_t barrier;      ///< code before it may not be folded: something jumps there
     uint32_t depth;      ///< of nested expressions and blocks

@@ -120,7 +120,11 @@ static uint32_t find_variable(FrLparser *parser, const char *name) {
     if (found == NULL) {
         found = g_hash_table_lookup(parser->unit->globals, name);
     }
-    return found == NULL ? FR_NONE : GPOINTER_TO_UINT(found) - 1;
+    uint32_t variable = found == NULL ? FR_NONE : GPOINTER_TO_UINT(found) - 1;
+    if (variable >= FR_LVAR_FIRST && variable - FR_LVAR_FIRST < parser->value_count) {
+        parser->is_used[variable - FR_LVAR_FIRST] = true;
+    }
+    return variable;
 }
 
 uint32_t fr_lparse_variable(FrLparser *parser, const char *name, bool is_assigned, size_t at) {

@@ -164,6 +164,7 @@ typedef struct FrLfunction {
     uint32_t code;
 } FrLfunction;
 
+/// Variables of every L-system; behind them come the values set from outside.
 enum { FR_LVAR_Q, FR_LVAR_Z, FR_LVAR_FIRST };
 
 struct FrLsystem {
@@ -178,6 +179,7 @@ struct FrLsystem {
     GArray *functions;   ///< FrLfunction
     GPtrArray *strings;  ///< char *, owned
     GPtrArray *units;    ///< FrLunit *, owned
+    GArray *values;      ///< double: set from outside, variables from FR_LVAR_FIRST on
     bool is_open;        ///< asks an environment or the turtle
     bool has_cut;        ///< % occurs
     bool is_paper;       ///< written in the notation of papers

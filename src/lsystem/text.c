@@ -16,7 +16,8 @@ typedef struct Reader {
     FrLmacros macros;
     const FrContext *context;
     const char *folder;
-    int depth; ///< of inclusion
+    GHashTable *held; ///< names that are set from outside, borrowed
+    int depth;        ///< of inclusion
     FrStatus status;
 } Reader;
 
@@ -160,10 +161,31 @@ static void include(Reader *reader, const Line *line, const char *rest) {
     g_free(name);
 }
 
+/// Whether the name that a directive is about is set from outside.
+static bool is_held(Reader *reader, const char *rest, bool is_defined) {
+    rest += strspn(rest, " \t");
+    size_t length = 0;
+    while (g_ascii_isalnum(rest[length]) || rest[length] == '_') {
+        length++;
+    }
+    char *name = g_strndup(rest, length);
+    bool is_known = g_hash_table_contains(reader->held, name);
+    if (is_defined) {
+        g_ptr_array_add(reader->text->defined, g_strdup(name));
+    }
+    if (is_known) {
+        g_hash_table_add(reader->text->held, name);
+    } else {
+        g_free(name);
+    }
+    return is_known;
+}
+
 static bool is_true(Reader *reader, const Line *line, const char *word, const char *rest) {
     if (strcmp(word, "ifdef") == 0 || strcmp(word, "ifndef") == 0) {
         char *name = g_strstrip(g_strdup(rest));
-        bool is_defined = g_hash_table_contains(reader->macros.table, name);
+        bool is_defined =
+            is_held(reader, rest, false) || g_hash_table_contains(reader->macros.table, name);
         g_free(name);
         return is_defined == (word[2] == 'd');
     }
@@ -222,7 +244,7 @@ static void obey(Reader *reader, const Line *line, GArray *branches, const char 
     if (is_condition || !is_read || (length == 0 && *rest == '\0')) {
         // nothing more to do
     } else if (strcmp(word, "define") == 0) {
-        if (!fr_lmacros_define(&reader->macros, rest)) {
+        if (!is_held(reader, rest, true) && !fr_lmacros_define(&reader->macros, rest)) {
             complain(reader, line, "directive", "#define needs a name", "");
         }
     } else if (strcmp(word, "undef") == 0) {
@@ -282,12 +304,23 @@ static void read_source(Reader *reader, FrSource *source) {
 FrLtext *fr_ltext_new(FrSource *source, const char *folder, const FrLname *names, size_t count,
                       const FrContext *context, FrStatus *status) {
     FrLtext *text = g_new(FrLtext, 1);
-    *text = (FrLtext){g_string_new(NULL), g_array_new(FALSE, FALSE, sizeof(uint32_t)),
+    *text = (FrLtext){g_string_new(NULL),
+                      g_array_new(FALSE, FALSE, sizeof(uint32_t)),
                       g_array_new(FALSE, FALSE, sizeof(uint8_t)),
-                      g_ptr_array_new_with_free_func((GDestroyNotify)fr_source_unref)};
-    Reader reader = {.text = text, .context = context, .folder = folder, .status = FR_OK};
+                      g_ptr_array_new_with_free_func((GDestroyNotify)fr_source_unref),
+                      g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
+                      g_ptr_array_new_with_free_func(g_free)};
+    Reader reader = {.text = text,
+                     .context = context,
+                     .folder = folder,
+                     .held = g_hash_table_new(g_str_hash, g_str_equal),
+                     .status = FR_OK};
     fr_lmacros_init(&reader.macros, context->limits.document_bytes);
     for (size_t i = 0; i < count; i++) {
+        if (names[i].is_held) {
+            g_hash_table_add(reader.held, (gpointer)names[i].name);
+            continue;
+        }
         char *definition = g_strdup_printf("%s %d", names[i].name, names[i].value);
         fr_lmacros_define(&reader.macros, definition);
         g_free(definition);
@@ -303,6 +336,7 @@ FrLtext *fr_ltext_new(FrSource *source, const char *folder, const FrLname *names
         reader.status = MAX(reader.status, FR_ERR_DOCUMENT);
     }
     fr_lmacros_clear(&reader.macros);
+    g_hash_table_unref(reader.held);
     *status = reader.status;
     if (reader.status == FR_ERR_LIMIT) {
         fr_ltext_free(text);
@@ -319,6 +353,8 @@ void fr_ltext_free(FrLtext *text) {
     g_array_unref(text->origins);
     g_array_unref(text->files);
     g_ptr_array_unref(text->sources);
+    g_hash_table_unref(text->held);
+    g_ptr_array_unref(text->defined);
     g_free(text);
 }
 

@@ -9,12 +9,16 @@ typedef struct FrLtext {
     GArray *origins;    ///< uint32_t: offset into its source, one for each byte
     GArray *files;      ///< uint8_t: index into sources, one for each byte
     GPtrArray *sources; ///< FrSource *, owned references
+    GHashTable *held;   ///< set of char *: names set from outside that a directive asked for
+    GPtrArray *defined; ///< char *: names that directives have defined
 } FrLtext;
 
-/// Names that stand for a number from the start: the functions of a view.
+/// Names that are known from the start: the functions of a view stand for their number, what is
+/// set from outside stands for itself and cannot be defined in the text.
 typedef struct FrLname {
     const char *name;
     int value;
+    bool is_held;
 } FrLname;
 
 /// Joins lines, removes comments, obeys directives, replaces macros. `folder` (may be NULL: then

@@ -23,6 +23,7 @@ void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuil
                           .context = context,
                           .builder = builder,
                           .status = FR_OK,
+                          .has_sites = builder != NULL && builder->sites != NULL,
                           .is_dollar_vertical = derivation->system->is_paper};
     turtle->pose = (FrLpose){.heading = {0, 1, 0},
                              .left = {-1, 0, 0},
@@ -356,8 +357,23 @@ static void obey_other(FrLturtle *turtle, char symbol, const uint32_t *module) {
     }
 }
 
+/// A symbol that places something of another engine.
+static bool place(FrLturtle *turtle, char symbol, const uint32_t *module) {
+    if (strchr(turtle->builder->sites, symbol) == NULL) {
+        return false;
+    }
+    fr_lturtle_close_segment(turtle);
+    fr_lbuilder_site(turtle->builder, &turtle->pose, symbol,
+                     fr_lturtle_value(module, 0, 1) * turtle->pose.scale);
+    turtle->status = MAX(turtle->status, turtle->builder->status);
+    return true;
+}
+
 static void obey(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_t origin) {
     FrLpose *pose = &turtle->pose;
+    if (turtle->has_sites && place(turtle, symbol, module)) {
+        return;
+    }
     switch (symbol) {
     case 'F':
     case 'f':

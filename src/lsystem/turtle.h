@@ -58,6 +58,7 @@ typedef struct FrLturtle {
     GArray *scales;          ///< double: of called L-systems
     bool is_dollar_vertical; ///< `$` turns as in The Algorithmic Beauty of Plants
     bool is_cylinder;        ///< @Gs was met
+    bool has_sites;          ///< some symbols place something
     uint64_t modules;
     FrStatus status;
     struct {

@@ -58,7 +58,7 @@ FrLname *fr_lview_names(const FrLview *view, size_t *count) {
     for (guint i = 0; i < view->functions->len; i++) {
         const FrLspline *function = &g_array_index(view->functions, FrLspline, i);
         if (function->name != NULL) {
-            names[(*count)++] = (FrLname){function->name, (int)i + 1};
+            names[(*count)++] = (FrLname){function->name, (int)i + 1, false};
         }
     }
     return names;

@@ -39,12 +39,13 @@ void fr_scene_free(FrScene *scene) {
     g_free(scene);
 }
 
-static uint64_t seed_of(const Build *build, const FrPlantDef *definition, int64_t own_seed) {
-    if (own_seed < 0) {
-        return build->seed < 0 ? definition->seed : (uint64_t)build->seed;
+/// < 0: the plant's own.
+static int64_t seed_of(const Build *build, int64_t own_seed) {
+    if (own_seed < 0 || build->seed < 0) {
+        return own_seed < 0 ? build->seed : own_seed;
     }
-    return build->seed < 0 ? (uint64_t)own_seed
-                           : fr_key_child(fr_key_root((uint64_t)build->seed), (uint64_t)own_seed);
+    FrKey mixed = fr_key_child(fr_key_root((uint64_t)build->seed), (uint64_t)own_seed);
+    return (int64_t)(mixed & INT64_MAX);
 }
 
 /// Adds an instance of a varied plant to the scene; its base is built once.
@@ -69,38 +70,29 @@ static FrStatus vary_plant(Build *build, const FrPlantDef *definition, uint64_t 
 }
 
 /// Builds a definition with a seed and adds it to the scene.
-static FrStatus build_plant(Build *build, const FrPlantDef *definition, uint64_t seed) {
+static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t seed) {
     if (definition->kind == FR_PLANT_VARIED) {
-        return vary_plant(build, definition, seed);
+        return vary_plant(build, definition, seed < 0 ? definition->seed : (uint64_t)seed);
     }
-    FrPgraph *reseeded =
-        seed == definition->seed ? NULL : fr_document_reseed(build->document, definition, seed);
-    const FrPgraph *graph = reseeded == NULL ? definition->pgraph : reseeded;
-    FrScenePlant made = {0};
-    FrPgraphCounts counts = {0};
-    FrStatus status = fr_pgraph_build(graph, build->context, &made.plant, &counts);
+    FrScenePlant made;
+    FrStatus status = fr_scene_grow(build->document, definition, seed, build->context, &made, NULL);
     if (status == FR_OK) {
-        made.instances = counts.instances;
-        guint components = made.plant->components->len;
-        made.by_component = g_new0(uint64_t, components + 1);
-        for (guint i = 0; i < MIN(components, fr_pgraph_count(graph)); i++) {
-            made.by_component[i] = counts.by_component[i];
-        }
         g_array_append_val(build->scene->plants, made);
         build->bytes = fr_count_add(build->bytes, fr_plant_bytes(made.plant));
         status = fr_limit_check(build->bytes, build->context->limits.bytes, "bytes", "the scene",
                                 definition->span, build->context->diags);
     }
-    g_free(counts.by_component);
-    fr_pgraph_free(reseeded);
     return status;
 }
 
 /// The scene's index of a plant with a seed, built now if it was not.
 static FrStatus use_plant(Build *build, const FrPlantDef *definition, int64_t own_seed,
                           uint32_t *index) {
-    uint64_t seed = seed_of(build, definition, own_seed);
-    char *key = g_strdup_printf("%s %" G_GINT64_MODIFIER "x", definition->id, seed);
+    int64_t seed = seed_of(build, own_seed);
+    if (seed < 0 && (definition->kind != FR_PLANT_LSYSTEM || definition->has_seed)) {
+        seed = (int64_t)definition->seed;
+    }
+    char *key = g_strdup_printf("%s %" G_GINT64_FORMAT, definition->id, seed);
     uint32_t found = GPOINTER_TO_UINT(g_hash_table_lookup(build->built, key));
     if (found != 0) {
         *index = found - 1;

@@ -14,22 +14,6 @@ static const FrPlantDef *find_plant(const FrDocument *document, const char *id) 
     return NULL;
 }
 
-/// Builds the base and copies what was counted of it.
-static FrStatus build_base(FrVaried *varied, const FrPlantDef *base, const FrContext *context) {
-    FrPgraphCounts counts = {0};
-    FrStatus status = fr_pgraph_build(base->pgraph, context, &varied->base, &counts);
-    if (status == FR_OK) {
-        guint components = varied->base->components->len;
-        varied->instances = counts.instances;
-        varied->by_component = g_new0(uint64_t, components + 1);
-        for (guint i = 0; i < MIN(components, fr_pgraph_count(base->pgraph)); i++) {
-            varied->by_component[i] = counts.by_component[i];
-        }
-    }
-    g_free(counts.by_component);
-    return status;
-}
-
 FrStatus fr_varied_new(const FrDocument *document, const FrPlantDef *definition,
                        const FrContext *context, FrVaried **varied) {
     *varied = NULL;
@@ -38,14 +22,19 @@ FrStatus fr_varied_new(const FrDocument *document, const FrPlantDef *definition,
     const FrVary *vary = definition->vary;
     if (vary != NULL) {
         base = find_plant(document, fr_vary_params(definition->vary)->base);
-        FR_ASSERT(base != NULL && base->kind == FR_PLANT_PGRAPH);
+        FR_ASSERT(base != NULL && base->kind != FR_PLANT_VARIED);
     } else {
         FrVaryParams params;
         fr_params_init(fr_vary_table(), &params);
         vary = made->plain = fr_vary_new(&params);
         fr_params_clear(fr_vary_table(), &params);
     }
-    FrStatus status = build_base(made, base, context);
+    FrScenePlant built;
+    FrStatus status = fr_scene_grow(document, base, -1, context, &built, NULL);
+    made->base = built.plant;
+    made->instances = built.instances;
+    made->by_component = built.by_component;
+    made->modules = built.modules;
     if (status == FR_OK) {
         status = fr_vary_prepare(vary, made->base, context, &made->plan);
     }
@@ -69,7 +58,8 @@ void fr_varied_free(FrVaried *varied) {
 
 FrScenePlant fr_varied_counts(const FrVaried *varied, FrPlant *instance) {
     size_t size = (varied->base->components->len + 1) * sizeof *varied->by_component;
-    return (FrScenePlant){instance, varied->instances, g_memdup2(varied->by_component, size)};
+    return (FrScenePlant){instance, varied->instances, g_memdup2(varied->by_component, size),
+                          varied->modules};
 }
 
 FrScenePlant fr_varied_instance(const FrVaried *varied, uint64_t seed) {

@@ -8,6 +8,7 @@ typedef struct FrVaried {
     FrPlant *base;
     uint64_t instances;
     uint64_t *by_component;
+    uint64_t modules;
     FrVary *plain; ///< the default variation, where the definition has none
     FrVaryPlan *plan;
 } FrVaried;

@@ -124,6 +124,27 @@ static void remove_folder(Folder folder) {
     g_free(folder.path);
 }
 
+static void test_within(void) {
+    FrSource *outer = fr_source_new("outer", "<a>x &lt; y</a>", 15);
+    const uint32_t origins[] = {3, 4, 5, 9, 10, 11};
+    FrSource *inner = fr_source_within(outer, "x < y", 5, origins);
+    FrSpan sign = fr_span_outermost((FrSpan){inner, 2, 3});
+    g_assert_true(sign.source == outer);
+    g_assert_cmpuint(sign.begin, ==, 5);
+    g_assert_cmpuint(sign.end, ==, 6);
+    FrSpan end = fr_span_outermost((FrSpan){inner, 5, 5});
+    g_assert_cmpuint(end.begin, ==, 11);
+    g_assert_cmpuint(end.end, ==, 11);
+    FrDiags *diags = fr_diags_new();
+    fr_diags_add(diags, FR_ERROR, "test", (FrSpan){inner, 4, 5}, "here");
+    fr_source_unref(inner);
+    fr_source_unref(outer);
+    const FrDiag *diag = fr_diags_get(diags, 0);
+    g_assert_cmpstr(fr_source_name(diag->span.source), ==, "outer");
+    g_assert_cmpuint(diag->span.begin, ==, 10);
+    fr_diags_free(diags);
+}
+
 static void test_load(void) {
     Folder folder = make_folder();
     g_assert_true(g_file_set_contents(folder.file, "a\0b\n", 4, NULL));
@@ -165,6 +186,8 @@ int main(int argc, char **argv) {
                     test_positions_are_found_at_once);
     g_test_add_func("/base/source/a source keeps its own copy", test_text_is_copied);
     g_test_add_func("/base/source/an inner span stays inside", test_span_inside);
+    g_test_add_func("/base/source/what is wrong within a text is told of the text around it",
+                    test_within);
     g_test_add_func("/base/source/a file is read whole, zero bytes too", test_load);
     g_test_add_func("/base/source/a file over the limit is not read", test_too_big);
     g_test_add_func("/base/source/what is no file is refused at once", test_not_a_file);

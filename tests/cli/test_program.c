@@ -69,6 +69,14 @@ static const Command commands[] = {
     {"info $S/data/presets/oak.frond --set oak.size=9", 1, "", "*[out-of-range]*"},
     {"info $S/data/presets/oak.frond --set oak.siez=1", 2, "", "*did you mean 'size'?*"},
     {"info none.glb", 1, "", "*none.glb*"},
+    // L-systems
+    {"derive $S/examples/lsystems/koch.l --steps 1", 0, "F*", ""},
+    {"derive $S/examples/figure2.frond", 2, "", "frond: there is no L-system in the document\n"},
+    {"build $S/examples/figure2.frond --steps 2", 2, "", "frond: --steps is for L-systems*"},
+    {"derive $S/examples/lsystems/monopodial.l --set r9=1", 1, "", "*did you mean 'r*[unused-*"},
+    {"derive $S/examples/lsystems/monopodial.l --steps 2 --set r1=0.5", 0, "*0.5*", ""},
+    {"info $S/examples/lsystems/bush.l --steps 2", 0, "*modules*axes*", ""},
+    {"check $S/examples/lsystems/bush.l", 0, "", ""},
     {"schema", 0, "<?xml*<xs:schema*name=\"phiball\"*</xs:schema>\n", ""},
     {"reference", 0, "# The `.frond` document*## `<phiball>`*", ""},
 };

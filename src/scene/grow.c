@@ -1,0 +1,52 @@
+/// One plant built by the engine of its definition.
+#include "frond/scene.h"
+
+static FrStatus grow_lsystem(const FrPlantDef *definition, int64_t seed, const FrContext *context,
+                             FrScenePlant *made) {
+    FrLsettings settings = fr_lmodel_settings(definition->lsystem);
+    settings.seed = seed >= 0 ? seed : definition->has_seed ? (int64_t)definition->seed : -1;
+    FrStatus status =
+        fr_lmodel_grow(definition->lsystem, &settings, context, &made->plant, &made->modules);
+    if (status == FR_OK) {
+        g_free(made->plant->name);
+        made->plant->name = g_strdup(definition->id);
+        made->by_component = g_new0(uint64_t, made->plant->components->len + 1);
+    }
+    return status;
+}
+
+static FrStatus grow_pgraph(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
+                            const FrContext *context, FrScenePlant *made, FrPgraphCounts *counts) {
+    FrPgraph *reseeded = seed < 0 || (uint64_t)seed == definition->seed
+                             ? NULL
+                             : fr_document_reseed(document, definition, (uint64_t)seed);
+    const FrPgraph *graph = reseeded == NULL ? definition->pgraph : reseeded;
+    FrStatus status = fr_pgraph_build(graph, context, &made->plant, counts);
+    if (status == FR_OK) {
+        guint components = made->plant->components->len;
+        made->instances = counts->instances;
+        made->by_component = g_new0(uint64_t, components + 1);
+        for (guint i = 0; i < MIN(components, fr_pgraph_count(graph)); i++) {
+            made->by_component[i] = counts->by_component[i];
+        }
+    }
+    fr_pgraph_free(reseeded);
+    return status;
+}
+
+FrStatus fr_scene_grow(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
+                       const FrContext *context, FrScenePlant *plant, FrPgraphCounts *counts) {
+    FR_ASSERT(definition->kind != FR_PLANT_VARIED);
+    *plant = (FrScenePlant){0};
+    if (definition->kind == FR_PLANT_LSYSTEM) {
+        if (counts != NULL) {
+            *counts = (FrPgraphCounts){0};
+        }
+        return grow_lsystem(definition, seed, context, plant);
+    }
+    FrPgraphCounts own = {0};
+    FrStatus status =
+        grow_pgraph(document, definition, seed, context, plant, counts == NULL ? &own : counts);
+    g_free(own.by_component);
+    return status;
+}
