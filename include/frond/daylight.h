@@ -39,3 +39,6 @@ FR_API double fr_light_sunlight(double elevation);
 /// `count` lamps, and one more where the sun does not rise; returns how many.
 FR_API size_t fr_light_day(FrSkyKind sky, FrSunPath path, size_t count, double sun_strength,
                            double sky_strength, FrLamp *lamps);
+/// The lamps of one moment, at most 2, in the same terms. A sun below the horizon is left out.
+FR_API size_t fr_light_sun_and_sky(FrSkyKind sky, double azimuth, double elevation,
+                                   double sun_strength, double sky_strength, FrLamp *lamps);

@@ -10,6 +10,7 @@
 #include "frond/lsystem_model.h"
 #include "frond/material.h"
 #include "frond/pgraph.h"
+#include "frond/surroundings.h"
 #include "frond/variation.h"
 
 typedef struct FrDocument FrDocument;
@@ -82,6 +83,9 @@ typedef struct FrPlantDef {
     X(REAL, sun_azimuth, "135", -360, 360, "deg", "", "direction of the sun, from +y clockwise")   \
     X(REAL, sun_elevation, "42", -10, 90, "deg", "", "height of the sun above the horizon")        \
     X(REAL, sun_strength, "1", 0, 20, "", "", "strength of the sun; 1 is a clear day")             \
+    X(CHOICE, sky, "air", 0, 0, "", "air uniform overcast clear",                                  \
+      "as the air makes it, or even, overcast or clear as standards have it; air is a clear "      \
+      "sky to plants")                                                                             \
     X(REAL, sky_strength, "1", 0, 20, "", "", "strength of the sky's light")                       \
     X(REAL, turbidity, "3", 1, 10, "", "", "haze: 2 clear mountain air, 10 haze")                  \
     X(SWITCH, ground, "yes", 0, 1, "", "", "a ground to stand on")                                 \
@@ -95,7 +99,13 @@ typedef struct FrPlantDef {
     X(REAL, elevation, "8", -89, 89, "deg", "", "from how high above")                             \
     X(REAL, field_of_view, "35", 1, 120, "deg", "", "of the picture's height")                     \
     X(REAL, zoom, "1", 0.01, 1000, "", "", "1 frames the whole scene, 2 is twice as near")         \
-    X(VECTOR, look_at, "0, 0, 0", -1000000, 1000000, "m", "", "moved from the middle by")
+    X(VECTOR, look_at, "0, 0, 0", -1000000, 1000000, "m", "", "moved from the middle by")          \
+    X(VECTOR, eye, "0, 0, 0", -1000000, 1000000, "m", "",                                          \
+      "where the camera stands, in a room say")                                                    \
+    X(VECTOR, target, "0, 0, 0", -1000000, 1000000, "m", "",                                       \
+      "what an eye that is not in the same place looks at; then only the field of view counts")
+
+enum { FR_SCENE_SKY_AIR, FR_SCENE_SKY_UNIFORM, FR_SCENE_SKY_OVERCAST, FR_SCENE_SKY_CLEAR };
 
 typedef struct FrPlace {
     FR_PLACE_PARAMS(FR_PARAM_FIELD)
@@ -129,6 +139,7 @@ FR_API const GPtrArray *fr_document_places(const FrDocument *document);
 FR_API const GPtrArray *fr_document_views(const FrDocument *document);
 FR_API const GPtrArray *fr_document_materials(const FrDocument *document);
 FR_API const FrSceneParams *fr_document_scene(const FrDocument *document);
+FR_API const FrSurroundings *fr_document_surroundings(const FrDocument *document);
 
 /// The XML Schema (XSD 1.0) of the format, made from the parameter tables.
 FR_API char *fr_document_schema(void);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "frond/document.h"
+#include "frond/light.h"
 #include "frond/skin.h"
 
 /// One plant of the scene, built once however often it stands there.
@@ -22,10 +23,13 @@ typedef struct FrStand {
 
 typedef struct FrScene {
     char *name;
-    GArray *plants;              ///< FrScenePlant
-    GArray *stands;              ///< FrStand
-    GPtrArray *views;            ///< FrViewParams *, borrowed from the document
-    const FrSceneParams *params; ///< borrowed from the document
+    GArray *plants;                     ///< FrScenePlant
+    GArray *stands;                     ///< FrStand
+    GPtrArray *views;                   ///< FrViewParams *, borrowed from the document
+    const FrSceneParams *params;        ///< borrowed from the document
+    const FrSurroundings *surroundings; ///< borrowed from the document; NULL: none
+    uint32_t obstacles; ///< how many of the last plants and stands are obstacles, 0 or 1: one plant
+                        ///< whose organs they are
     uint64_t seed;
 } FrScene;
 
@@ -54,3 +58,5 @@ FR_API FrDigest fr_scene_digest(const FrScene *scene);
 /// The smallest box around everything, organs' shapes included roughly; min > max if nothing has
 /// an extent.
 FR_API void fr_scene_bounds(const FrScene *scene, double min[3], double max[3]);
+/// A lamp of the document as plants and pictures are lit by it; power in watts.
+FR_API FrLamp fr_scene_lamp(const FrLampParams *params);

@@ -18,8 +18,9 @@ static void add_component(json_t *object, const char *id, uint64_t count) {
 }
 
 static Totals count_scene(const FrScene *scene) {
-    Totals totals = {.plants = scene->stands->len, .by_component = json_object()};
-    for (guint i = 0; i < scene->stands->len; i++) {
+    guint stands = scene->stands->len - scene->obstacles;
+    Totals totals = {.plants = stands, .by_component = json_object()};
+    for (guint i = 0; i < stands; i++) {
         uint32_t index = g_array_index(scene->stands, FrStand, i).plant;
         const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, index);
         const FrPlant *plant = built->plant;
@@ -34,7 +35,7 @@ static Totals count_scene(const FrScene *scene) {
                           built->by_component[c]);
         }
     }
-    for (guint i = 0; i < scene->plants->len; i++) {
+    for (guint i = 0; i < scene->plants->len - scene->obstacles; i++) {
         totals.shapes += g_array_index(scene->plants, FrScenePlant, i).plant->shapes->len;
     }
     return totals;

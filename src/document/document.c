@@ -38,6 +38,7 @@ static FrDocument *new_document(FrXmlTree *tree, const char *folder) {
     document->materials = g_ptr_array_new_with_free_func(free_material);
     document->scope = fr_scope_new();
     fr_params_init(fr_scene_table(), &document->scene);
+    fr_surroundings_init(&document->surroundings);
     return document;
 }
 
@@ -50,6 +51,7 @@ void fr_document_free(FrDocument *document) {
     g_ptr_array_unref(document->views);
     g_ptr_array_unref(document->materials);
     fr_params_clear(fr_scene_table(), &document->scene);
+    fr_surroundings_clear(&document->surroundings);
     fr_scope_free(document->scope);
     fr_xml_free(document->tree);
     g_free(document->folder);
@@ -173,4 +175,8 @@ const GPtrArray *fr_document_materials(const FrDocument *document) {
 
 const FrSceneParams *fr_document_scene(const FrDocument *document) {
     return &document->scene;
+}
+
+const FrSurroundings *fr_document_surroundings(const FrDocument *document) {
+    return &document->surroundings;
 }

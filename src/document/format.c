@@ -113,9 +113,14 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
     [FR_ELEMENT_SCENE] = {.name = "scene",
                           .table = &scene_table,
                           .is_once = true,
-                          .children = SET(PLACE) | SET(VIEW)},
+                          .children = SET(SUN) | SET(LIGHT) | SET(LAMP) | SET(OBSTACLE) |
+                                      SET(PLACE) | SET(VIEW)},
     [FR_ELEMENT_PLACE] = {.name = "place", .table = &place_table, .required = "plant"},
     [FR_ELEMENT_VIEW] = {.name = "view", .table = &view_table, .required = "name"},
+    [FR_ELEMENT_OBSTACLE] = {.name = "obstacle"},
+    [FR_ELEMENT_LAMP] = {.name = "lamp"},
+    [FR_ELEMENT_SUN] = {.name = "sun", .is_once = true},
+    [FR_ELEMENT_LIGHT] = {.name = "light", .is_once = true},
 };
 
 FrElement fr_element(FrElementId id) {
@@ -136,6 +141,10 @@ FrElement fr_element(FrElementId id) {
         element.table = fr_stroke_table();
     } else if (id == FR_ELEMENT_INDICATOR) {
         element.table = fr_indicator_table();
+    } else if (id >= FR_ELEMENT_OBSTACLE && id <= FR_ELEMENT_LIGHT) {
+        const FrParamTable *tables[] = {fr_obstacle_table(), fr_lamp_table(), fr_sun_table(),
+                                        fr_light_table()};
+        element.table = tables[id - FR_ELEMENT_OBSTACLE];
     }
     if (element.meaning == NULL) {
         element.meaning = element.table->meaning;

@@ -53,6 +53,7 @@ void fr_read_scenes(FrReader *reader, uint32_t parent) {
          node = fr_read_next(reader, node, FR_ELEMENT_PLACE)) {
         read_place(reader, node);
     }
+    fr_read_surroundings(reader, scene);
     GHashTable *names = g_hash_table_new(g_str_hash, g_str_equal);
     for (uint32_t node = fr_read_first(reader, scene, FR_ELEMENT_VIEW); node != FR_NONE;
          node = fr_read_next(reader, node, FR_ELEMENT_VIEW)) {

@@ -11,6 +11,7 @@ struct FrDocument {
     char *folder;
     GPtrArray *plants, *places, *views, *materials;
     FrSceneParams scene;
+    FrSurroundings surroundings;
     FrScope *scope;
 };
 
@@ -49,6 +50,10 @@ FrVary *fr_read_vary(FrReader *reader, uint32_t node);
 /// Reports varied plants whose base is no other plant.
 void fr_read_check_bases(FrReader *reader);
 void fr_read_scenes(FrReader *reader, uint32_t parent);
+/// What stands and shines in a `<scene>`.
+void fr_read_surroundings(FrReader *reader, uint32_t scene);
+void fr_surroundings_init(FrSurroundings *surroundings);
+void fr_surroundings_clear(FrSurroundings *surroundings);
 
 /// The material of that id, which an attribute names; NULL for none, or with an error.
 FrMaterial *fr_read_material(FrReader *reader, uint32_t node, const char *attribute,

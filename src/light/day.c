@@ -30,20 +30,31 @@ static size_t add_suns(FrSkyKind sky, const vec3s *places, size_t count, double 
     return written;
 }
 
+/// The lamps for these places of the sun.
+static size_t add_lamps(FrSkyKind sky, const vec3s *places, size_t count, double sun_strength,
+                        double sky_strength, FrLamp *lamps) {
+    if (sky == FR_SKY_OVERCAST) {
+        count = 0;
+    }
+    size_t written = add_suns(sky, places, count, sun_strength, sky_strength, lamps);
+    if (sky != FR_SKY_CLEAR) {
+        double even = sky_strength * SKY_PART * fr_light_sunlight(G_PI_2);
+        lamps[written++] = sky_lamp(sky, even, (vec3s){{0, 0, 1}});
+    }
+    return written;
+}
+
+size_t fr_light_sun_and_sky(FrSkyKind sky, double azimuth, double elevation, double sun_strength,
+                            double sky_strength, FrLamp *lamps) {
+    vec3s place = fr_light_sun_direction(azimuth, elevation);
+    return add_lamps(sky, &place, elevation > 0 ? 1 : 0, sun_strength, sky_strength, lamps);
+}
+
 size_t fr_light_day(FrSkyKind sky, FrSunPath path, size_t count, double sun_strength,
                     double sky_strength, FrLamp *lamps) {
-    vec3s zenith = {{0, 0, 1}};
-    double even = sky_strength * SKY_PART * fr_light_sunlight(G_PI_2);
-    if (sky == FR_SKY_OVERCAST) {
-        lamps[0] = sky_lamp(sky, even, zenith);
-        return 1;
-    }
     vec3s *places = g_new(vec3s, count);
     size_t risen = count == 0 ? 0 : fr_light_sun_places(path, count, places);
-    size_t written = add_suns(sky, places, risen, sun_strength, sky_strength, lamps);
+    size_t written = add_lamps(sky, places, risen, sun_strength, sky_strength, lamps);
     g_free(places);
-    if (sky == FR_SKY_UNIFORM || risen == 0) {
-        lamps[written++] = sky_lamp(FR_SKY_UNIFORM, even, zenith);
-    }
     return written;
 }

@@ -119,7 +119,23 @@ static void set_directions(FrCamera *camera, double azimuth, double elevation) {
     camera->up = glms_vec3_cross(camera->right, camera->forward);
 }
 
+/// A camera that stands where the view says.
+static FrCamera placed_camera(const FrWorld *world, const FrViewParams *view, float aspect) {
+    vec3s back = glms_vec3_sub(view->eye, view->target);
+    vec3s shift = {{(float)world->origin[0], (float)world->origin[1], (float)world->origin[2]}};
+    FrCamera camera = {.half_height = (float)tan(0.5 * view->field_of_view),
+                       .distance = glms_vec3_norm(back),
+                       .origin = glms_vec3_sub(view->eye, shift)};
+    camera.half_width = camera.half_height * aspect;
+    set_directions(&camera, atan2((double)back.x, (double)-back.y),
+                   atan2((double)back.z, hypot((double)back.x, (double)back.y)));
+    return camera;
+}
+
 FrCamera fr_camera_frame(const FrWorld *world, const FrViewParams *view, float aspect) {
+    if (view != NULL && !glms_vec3_eqv(view->eye, view->target)) {
+        return placed_camera(world, view, aspect);
+    }
     Box box = bounds(world);
     double azimuth = view != NULL ? view->azimuth : DEFAULT_AZIMUTH;
     double elevation = view != NULL ? view->elevation : default_elevation(&box);

@@ -1,6 +1,6 @@
 // Path tracing (Kajiya 1986, The Rendering Equation) with light sampled at every surface and
-// multiple importance sampling of the sky by the power heuristic (Veach, Guibas 1995). The sun's
-// disc is so small that only light sampling ever finds it.
+// multiple importance sampling of the sky and of lamps by the power heuristic (Veach, Guibas 1995).
+// The sun's disc is so small that only light sampling ever finds it.
 #include "render/path.h"
 
 #include "render/colour.h"
@@ -48,7 +48,8 @@ static void add_sun(Path *path, const FrSurface *surface, vec3s out) {
     }
     vec3s in = fr_sky_sample_sun(sky, u, v);
     vec3s scattered = fr_bsdf_eval(&surface->bsdf, out, in);
-    if (fr_is_black(scattered) || fr_world_is_blocked(path->world, start_point(surface, in), in)) {
+    if (fr_is_black(scattered) ||
+        fr_world_is_blocked(path->world, start_point(surface, in), in, INFINITY)) {
         return;
     }
     add_light(path, glms_vec3_mul(scattered, sky->sun_irradiance));
@@ -71,12 +72,53 @@ static void add_sky(Path *path, const FrSurface *surface, vec3s out, bool is_onl
         return;
     }
     vec3s scattered = fr_bsdf_eval(&surface->bsdf, out, in);
-    if (fr_is_black(scattered) || fr_world_is_blocked(path->world, start_point(surface, in), in)) {
+    if (fr_is_black(scattered) ||
+        fr_world_is_blocked(path->world, start_point(surface, in), in, INFINITY)) {
         return;
     }
     float weight = is_only ? 1.0f : power_weight(density, fr_bsdf_density(&surface->bsdf, out, in));
     vec3s light = glms_vec3_scale(fr_sky_radiance(sky, in), weight / density);
     add_light(path, glms_vec3_mul(scattered, light));
+}
+
+/// As add_sky(), with the lamps.
+static void add_lamps(Path *path, const FrSurface *surface, vec3s out, bool is_only) {
+    const FrLampSet *lamps = &path->world->lamps;
+    if (lamps->count == 0) {
+        return;
+    }
+    float u;
+    float v;
+    fr_sampler_pair(path->sampler, &u, &v);
+    FrLampSight sight =
+        fr_lamps_sample(lamps, surface->point, fr_sampler_single(path->sampler), u, v);
+    if (fr_is_black(sight.radiance)) {
+        return;
+    }
+    vec3s scattered = fr_bsdf_eval(&surface->bsdf, out, sight.direction);
+    vec3s from = start_point(surface, sight.direction);
+    float far = sight.distance * (1.0f - 1e-4f) - 1e-5f;
+    if (fr_is_black(scattered) || fr_world_is_blocked(path->world, from, sight.direction, far)) {
+        return;
+    }
+    float other = fr_bsdf_density(&surface->bsdf, out, sight.direction);
+    float weight = is_only ? 1.0f : power_weight(sight.density, other);
+    vec3s light = glms_vec3_scale(sight.radiance, weight / sight.density);
+    add_light(path, glms_vec3_mul(scattered, light));
+}
+
+/// True if a lamp stands before what is `far` away; its light has been added.
+static bool meet_lamp(Path *path, vec3s origin, vec3s direction, float far, uint32_t bounce,
+                      float density) {
+    FrLampSight sight;
+    if (!fr_lamps_meet(&path->world->lamps, origin, direction, far, &sight)) {
+        return false;
+    }
+    float weight = bounce == 0 ? 1.0f : power_weight(density, sight.density);
+    if (!fr_is_black(sight.radiance)) {
+        add_light(path, glms_vec3_scale(sight.radiance, weight));
+    }
+    return true;
 }
 
 /// Distant ground dissolves into the horizon: returns false if nothing of it is left.
@@ -126,7 +168,7 @@ FrPathSample fr_path_trace(const FrWorld *world, vec3s origin, vec3s direction, 
         .world = world,
         .sampler = sampler,
         .throughput = glms_vec3_one(),
-        .white = fr_luminance(world->sky->flat_irradiance) / FR_PI_F,
+        .white = fr_luminance(world->white) / FR_PI_F,
     };
     FrPathSample sample = {.albedo = glms_vec3_one(), .is_sky = true};
     float density = 0.0f;
@@ -134,6 +176,9 @@ FrPathSample fr_path_trace(const FrWorld *world, vec3s origin, vec3s direction, 
         FrSurface surface;
         FrMet met = fr_world_trace(world, origin, direction, &surface);
         path.is_indirect = bounce > 0;
+        if (meet_lamp(&path, origin, direction, surface.distance, bounce, density)) {
+            break;
+        }
         if (met == FR_MET_SKY) {
             meet_sky(&path, direction, bounce, density);
             break;
@@ -153,6 +198,7 @@ FrPathSample fr_path_trace(const FrWorld *world, vec3s origin, vec3s direction, 
         if (bounce < SKY_SAMPLED_BOUNCES || is_last) {
             add_sky(&path, &surface, out, is_last);
         }
+        add_lamps(&path, &surface, out, is_last);
         float u;
         float v;
         fr_sampler_pair(sampler, &u, &v);

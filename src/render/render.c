@@ -182,8 +182,7 @@ static FrStatus find_view(const FrScene *scene, const char *name, const FrContex
     return *view != NULL ? FR_OK : FR_ERR_USAGE;
 }
 
-static vec3s white_balance(const FrSky *sky) {
-    vec3s light = sky->flat_irradiance;
+static vec3s white_balance(vec3s light) {
     float mean = fr_luminance(light);
     vec3s balance = glms_vec3_one();
     for (int c = 0; c < 3; c++) {
@@ -219,9 +218,9 @@ FrStatus fr_render_world(FrWorld *world, const FrViewParams *view, double stops,
         light = fr_film_denoise(job.film, context);
     }
     if (light != NULL) {
-        float white = fr_luminance(world->sky->flat_irradiance) / FR_PI_F;
+        float white = fr_luminance(world->white) / FR_PI_F;
         float exposure = fr_film_exposure(job.film, light, white) * (float)exp2(stops);
-        *image = fr_film_develop(job.film, light, exposure, white_balance(world->sky));
+        *image = fr_film_develop(job.film, light, exposure, white_balance(world->white));
         status = FR_OK;
     }
     g_free(light);

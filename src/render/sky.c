@@ -2,12 +2,18 @@
 // share of the row (Pharr, Jakob, Humphreys 2016, Physically Based Rendering, section 14.2.4).
 #include "render/sky.h"
 
+#include "frond/daylight.h"
 #include "render/atmosphere.h"
 #include "render/colour.h"
 
 #include <math.h>
 
 #define SUN_ANGULAR_RADIUS 0.00465f
+// Sunlight outside the atmosphere, the unit of all light here, in kW/m².
+#define SOLAR_KILOWATTS 1.361
+// Standards tell brightness, not colour: skylight and sunlight of luminance 1.
+#define STANDARD_COLOUR ((vec3s){{0.93f, 1.0f, 1.13f}})
+#define STANDARD_SUN ((vec3s){{1.08f, 0.99f, 0.86f}})
 
 enum { SKY_COLUMNS = 256, SKY_ROWS = 512, BLOCK = 4 };
 
@@ -140,11 +146,21 @@ FrSky *fr_sky_new_uniform(vec3s radiance, bool is_sphere) {
     return sky;
 }
 
+/// What the table is filled from: the air, or a standard's sky if that is NULL.
 typedef struct Fill {
     FrSky *sky;
     const FrAtmosphere *atmosphere;
+    FrLamp standard;
     float strength;
 } Fill;
+
+static vec3s radiance_of(const Fill *fill, vec3s direction) {
+    if (fill->atmosphere != NULL) {
+        return fr_atmosphere_radiance(fill->atmosphere, direction, fill->sky->sun_direction);
+    }
+    float part = (float)fr_lamp_sky_brightness(&fill->standard, direction);
+    return glms_vec3_scale(STANDARD_COLOUR, part);
+}
 
 static void fill_rows(void *data, size_t begin, size_t end, int worker) {
     const Fill *fill = data;
@@ -154,9 +170,8 @@ static void fill_rows(void *data, size_t begin, size_t end, int worker) {
         size_t row = sky->rows / 2 + i;
         for (uint32_t column = 0; column < sky->columns; column++) {
             vec3s direction = cell_direction(sky, (float)column + 0.5f, (float)row + 0.5f);
-            vec3s radiance =
-                fr_atmosphere_radiance(fill->atmosphere, direction, sky->sun_direction);
-            sky->radiance[row * sky->columns + column] = glms_vec3_scale(radiance, fill->strength);
+            sky->radiance[row * sky->columns + column] =
+                glms_vec3_scale(radiance_of(fill, direction), fill->strength);
         }
     }
 }
@@ -175,19 +190,60 @@ static void fill_below(FrSky *sky) {
     }
 }
 
+/// Scales a standard's sky to bring `irradiance` to level ground.
+static void scale_sky(FrSky *sky, float irradiance) {
+    update_flat_irradiance(sky);
+    float scale = irradiance / fmaxf(fr_luminance(sky->flat_irradiance), 1e-9f);
+    for (size_t i = 0; i < (size_t)sky->columns * sky->rows; i++) {
+        sky->radiance[i] = glms_vec3_scale(sky->radiance[i], scale);
+    }
+}
+
+/// Fills the upper half as the air makes it, and sets the sun.
+static void fill_air(Fill *fill, const FrSceneParams *params, const FrContext *context) {
+    FrSky *sky = fill->sky;
+    FrAtmosphere *atmosphere = fr_atmosphere_new(params->turbidity);
+    fill->atmosphere = atmosphere;
+    fill->strength = (float)params->sky_strength;
+    fr_parallel_for(context->pool, sky->rows / 2, 8, fill_rows, fill, NULL);
+    vec3s sunlight = fr_atmosphere_sunlight(atmosphere, sin(params->sun_elevation));
+    fr_sky_set_sun(sky, sky->sun_direction, glms_vec3_scale(sunlight, (float)params->sun_strength));
+    fr_atmosphere_free(atmosphere);
+}
+
+/// The same for a standard's sky. Plants are lit by as much (frond/daylight.h); an overcast sky
+/// hides its sun.
+static void fill_standard(Fill *fill, const FrSceneParams *params, const FrContext *context) {
+    FrSky *sky = fill->sky;
+    FrLamp lamps[3];
+    size_t count =
+        fr_light_sun_and_sky((FrSkyKind)(params->sky - FR_SCENE_SKY_UNIFORM), params->sun_azimuth,
+                             params->sun_elevation, params->sun_strength, 1, lamps);
+    vec3s sunlight = glms_vec3_zero();
+    float level = 0;
+    for (size_t i = 0; i < count; i++) {
+        float power = (float)(lamps[i].power / SOLAR_KILOWATTS);
+        if (lamps[i].kind == FR_LAMP_SUN) {
+            sunlight = glms_vec3_scale(STANDARD_SUN, power);
+        } else {
+            fill->standard = lamps[i];
+            level = power;
+        }
+    }
+    fr_parallel_for(context->pool, sky->rows / 2, 8, fill_rows, fill, NULL);
+    scale_sky(sky, level * (float)params->sky_strength);
+    fr_sky_set_sun(sky, sky->sun_direction, sunlight);
+}
+
 FrSky *fr_sky_new(const FrSceneParams *params, bool has_ground, const FrContext *context) {
     FrSky *sky = new_table(SKY_COLUMNS, SKY_ROWS);
-    double azimuth = params->sun_azimuth;
-    double elevation = params->sun_elevation;
-    vec3s sun = {{(float)(sin(azimuth) * cos(elevation)), (float)(cos(azimuth) * cos(elevation)),
-                  (float)sin(elevation)}};
-    sky->sun_direction = sun;
-    FrAtmosphere *atmosphere = fr_atmosphere_new(params->turbidity);
-    Fill fill = {sky, atmosphere, (float)params->sky_strength};
-    fr_parallel_for(context->pool, sky->rows / 2, 8, fill_rows, &fill, NULL);
-    vec3s sunlight = fr_atmosphere_sunlight(atmosphere, sin(elevation));
-    fr_sky_set_sun(sky, sun, glms_vec3_scale(sunlight, (float)params->sun_strength));
-    fr_atmosphere_free(atmosphere);
+    sky->sun_direction = fr_light_sun_direction(params->sun_azimuth, params->sun_elevation);
+    Fill fill = {.sky = sky, .strength = 1};
+    if (params->sky == FR_SCENE_SKY_AIR) {
+        fill_air(&fill, params, context);
+    } else {
+        fill_standard(&fill, params, context);
+    }
     if (!has_ground) {
         fill_below(sky);
     }

@@ -150,6 +150,7 @@ FrMet fr_world_trace(const FrWorld *world, vec3s origin, vec3s direction, FrSurf
         meet_plant(world, &hit, out, surface);
         return FR_MET_PLANT;
     }
+    surface->distance = ground;
     if (isinf(ground)) {
         return FR_MET_SKY;
     }
@@ -159,9 +160,9 @@ FrMet fr_world_trace(const FrWorld *world, vec3s origin, vec3s direction, FrSurf
     return FR_MET_GROUND;
 }
 
-bool fr_world_is_blocked(const FrWorld *world, vec3s origin, vec3s direction) {
-    if (world->ground != NULL && direction.z < 0.0f) {
+bool fr_world_is_blocked(const FrWorld *world, vec3s origin, vec3s direction, float far) {
+    if (world->ground != NULL && direction.z < 0.0f && -origin.z > direction.z * far) {
         return true;
     }
-    return fr_rays_is_blocked(world->rays, origin, direction, 0.0f, INFINITY);
+    return fr_rays_is_blocked(world->rays, origin, direction, 0.0f, far);
 }

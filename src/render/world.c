@@ -6,6 +6,8 @@
 #include <math.h>
 
 #define GROUND_VARIATION 0.6f
+// How often the walls of a light room see the light of its lamps.
+#define LAMPLIGHT 2.5f
 
 // Embree asks from any thread; only reads.
 static bool is_hole(void *user, uint32_t mesh, uint32_t part, uint32_t triangle, float u, float v) {
@@ -45,6 +47,7 @@ void fr_world_free(FrWorld *world) {
     g_array_free(world->stands, TRUE);
     fr_sky_free(world->sky);
     fr_ground_free(world->ground);
+    fr_lamps_clear(&world->lamps);
     g_free(world);
 }
 
@@ -64,8 +67,34 @@ void fr_world_add_stand(FrWorld *world, uint32_t mesh, mat4s transform) {
     fr_rays_add_stand(world->rays, mesh, transform);
 }
 
+/// Square metres of the box around everything that stands in the world.
+static float surface_of(const FrWorld *world) {
+    vec3s min = {{INFINITY, INFINITY, INFINITY}}, max = glms_vec3_negate(min);
+    for (guint i = 0; i < world->stands->len; i++) {
+        const FrWorldStand *stand = &g_array_index(world->stands, FrWorldStand, i);
+        const FrMesh *mesh = g_array_index(world->meshes, FrWorldMesh, stand->mesh).mesh;
+        for (uint32_t corner = 0; corner < 8 * mesh->part_count; corner++) {
+            const FrMeshPart *part = &mesh->parts[corner / 8];
+            vec3s local = {{(corner & 1) != 0 ? part->max[0] : part->min[0],
+                            (corner & 2) != 0 ? part->max[1] : part->min[1],
+                            (corner & 4) != 0 ? part->max[2] : part->min[2]}};
+            vec3s at = glms_mat4_mulv3(stand->transform, local, 1.0f);
+            min = glms_vec3_minv(min, at);
+            max = glms_vec3_maxv(max, at);
+        }
+    }
+    vec3s size = glms_vec3_sub(max, min);
+    float surface = 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x);
+    return surface > 1e-6f && isfinite(surface) ? surface : 1.0f;
+}
+
 void fr_world_commit(FrWorld *world) {
     fr_rays_commit(world->rays);
+    world->white = world->sky->flat_irradiance;
+    if (world->lamps.count > 0) {
+        float spread = LAMPLIGHT / surface_of(world);
+        world->white = glms_vec3_muladds(world->lamps.power, spread, world->white);
+    }
 }
 
 static FrStatus add_plant(FrWorld *world, const FrPlant *plant, const FrSkinParams *skin,
@@ -123,6 +152,7 @@ FrStatus fr_world_of_scene(const FrScene *scene, const FrSkinParams *skin, const
                            : NULL;
     FrWorld *made = fr_world_new(sky, ground);
     find_origin(made, scene);
+    made->lamps = fr_lamps_new(scene->surroundings, made->origin);
     if (ground != NULL) {
         ground->origin[0] = made->origin[0];
         ground->origin[1] = made->origin[1];

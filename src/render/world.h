@@ -9,6 +9,7 @@
 #include "frond/rays.h"
 #include "frond/scene.h"
 #include "render/ground.h"
+#include "render/lamps.h"
 #include "render/look.h"
 #include "render/sky.h"
 
@@ -30,6 +31,8 @@ typedef struct FrWorld {
     FrDecoder decoder;
     FrSky *sky;       ///< owned
     FrGround *ground; ///< owned; NULL: none
+    FrLampSet lamps;  ///< owned
+    vec3s white;      ///< irradiance of white things, roughly: what exposure and colours go by
     double origin[3];
 } FrWorld;
 
@@ -38,9 +41,9 @@ typedef enum FrMet { FR_MET_SKY, FR_MET_GROUND, FR_MET_PLANT } FrMet;
 
 typedef struct FrSurface {
     FrBsdf bsdf;
-    vec3s point; ///< moved off the surface towards the viewer
-    vec3s below; ///< the same moved to the other side, for light that goes through
-    float distance;
+    vec3s point;    ///< moved off the surface towards the viewer
+    vec3s below;    ///< the same moved to the other side, for light that goes through
+    float distance; ///< INFINITY: nothing but the sky
 } FrSurface;
 
 /// Nothing but a sky; both are taken over. `ground` may be NULL.
@@ -57,5 +60,5 @@ FR_MUST_USE FrStatus fr_world_of_scene(const FrScene *scene, const FrSkinParams 
 
 /// The first thing along a ray with unit direction.
 FrMet fr_world_trace(const FrWorld *world, vec3s origin, vec3s direction, FrSurface *surface);
-/// True if anything stands between `origin` and the sky.
-bool fr_world_is_blocked(const FrWorld *world, vec3s origin, vec3s direction);
+/// True if anything stands between `origin` and what is `far` away; INFINITY is the sky.
+bool fr_world_is_blocked(const FrWorld *world, vec3s origin, vec3s direction, float far);

@@ -1,4 +1,5 @@
 /// A document built: each plant once for every seed it stands with.
+#include "scene/obstacles.h"
 #include "scene/varied.h"
 
 #include <string.h>
@@ -155,6 +156,25 @@ static FrStatus build_places(Build *build) {
     return status;
 }
 
+/// The obstacles, last of plants and stands.
+static FrStatus build_obstacles(Build *build) {
+    FrScene *scene = build->scene;
+    if (scene->surroundings->obstacles->len == 0) {
+        return FR_OK;
+    }
+    FrScenePlant made = {0};
+    FrStatus status = fr_obstacles_plant(scene->surroundings, build->context, &made.plant);
+    if (status != FR_OK) {
+        return status;
+    }
+    made.by_component = g_new0(uint64_t, 1);
+    FrStand stand = {.plant = scene->plants->len, .scale = 1};
+    g_array_append_val(scene->plants, made);
+    g_array_append_val(scene->stands, stand);
+    scene->obstacles = 1;
+    return FR_OK;
+}
+
 static FrScene *new_scene(const FrDocument *document, int64_t seed) {
     FrScene *scene = g_new0(FrScene, 1);
     scene->name = scene_name(fr_document_name(document));
@@ -167,6 +187,7 @@ static FrScene *new_scene(const FrDocument *document, int64_t seed) {
         g_ptr_array_add(scene->views, g_ptr_array_index(views, i));
     }
     scene->params = fr_document_scene(document);
+    scene->surroundings = fr_document_surroundings(document);
     const GPtrArray *plants = fr_document_plants(document);
     if (seed >= 0) {
         scene->seed = (uint64_t)seed;
@@ -196,6 +217,9 @@ FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContex
         g_hash_table_insert(build.definitions, definition->id, definition);
     }
     FrStatus status = build_places(&build);
+    if (status == FR_OK) {
+        status = build_obstacles(&build);
+    }
     g_hash_table_unref(build.definitions);
     g_hash_table_unref(build.built);
     g_hash_table_unref(build.varied);

@@ -103,7 +103,8 @@ static void test_day(void) {
     g_assert_cmpint(lamps[0].sky, ==, FR_SKY_OVERCAST);
     g_assert_cmpuint(fr_light_day(FR_SKY_UNIFORM, path, 8, 1, 1, lamps), ==, 9);
     FrSunPath night = {80 * DEGREE, -23 * DEGREE};
-    g_assert_cmpuint(fr_light_day(FR_SKY_CLEAR, night, 8, 1, 1, lamps), ==, 1);
+    g_assert_cmpuint(fr_light_day(FR_SKY_CLEAR, night, 8, 1, 1, lamps), ==, 0);
+    g_assert_cmpuint(fr_light_day(FR_SKY_UNIFORM, night, 8, 1, 1, lamps), ==, 1);
 }
 
 int main(int argc, char **argv) {

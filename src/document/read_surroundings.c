@@ -1,0 +1,118 @@
+/// What stands and shines around plants: `<obstacle>`, `<lamp>`, `<sun>` and `<light>` of a scene.
+#include "document/reader.h"
+#include "frond/daylight.h"
+
+#include <math.h>
+
+static void read_obstacle(FrReader *reader, uint32_t node) {
+    fr_read_check_children(reader, node, FR_ELEMENT_OBSTACLE);
+    FrObstacle *obstacle = g_new0(FrObstacle, 1);
+    fr_params_init(fr_obstacle_table(), obstacle);
+    obstacle->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
+    fr_read_attributes(reader, node, FR_ELEMENT_OBSTACLE, obstacle);
+    obstacle->made_of = fr_read_material(reader, node, "material", obstacle->material);
+    g_ptr_array_add(reader->document->surroundings.obstacles, obstacle);
+}
+
+static void read_lamp(FrReader *reader, uint32_t node) {
+    fr_read_check_children(reader, node, FR_ELEMENT_LAMP);
+    FrLampParams *lamp = g_new0(FrLampParams, 1);
+    fr_params_init(fr_lamp_table(), lamp);
+    lamp->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
+    fr_read_attributes(reader, node, FR_ELEMENT_LAMP, lamp);
+    vec3s d = lamp->direction;
+    if (d.x == 0 && d.y == 0 && d.z == 0) {
+        fr_read_error(reader, "no-direction", fr_read_value_place(reader, node, "direction"),
+                      "this lamp shines in no direction");
+    }
+    g_ptr_array_add(reader->document->surroundings.lamps, lamp);
+}
+
+/// Year, month and day of a text; false if it is no date of the years that the sun is known for.
+static bool parse_date(const char *text, int date[3]) {
+    char **parts = g_strsplit(text == NULL ? "" : text, "-", 4);
+    guint64 numbers[3] = {0, 0, 0};
+    bool is_date = g_strv_length(parts) == 3;
+    for (int i = 0; i < 3 && is_date; i++) {
+        is_date = g_ascii_string_to_unsigned(parts[i], 10, 1, 2100, &numbers[i], NULL);
+        date[i] = (int)numbers[i];
+    }
+    g_strfreev(parts);
+    return is_date && date[0] >= 1900 && date[1] <= 12 && date[2] <= 31 &&
+           g_date_valid_dmy((GDateDay)date[2], (GDateMonth)date[1], (GDateYear)date[0]);
+}
+
+/// The sun's angles follow from the date; whoever gives both is told.
+static void read_sun(FrReader *reader, uint32_t node, uint32_t scene) {
+    fr_read_check_children(reader, node, FR_ELEMENT_SUN);
+    FrSunParams *sun = &reader->document->surroundings.sun;
+    fr_read_attributes(reader, node, FR_ELEMENT_SUN, sun);
+    static const char *const angles[] = {"sun-azimuth", "sun-elevation"};
+    for (size_t i = 0; i < G_N_ELEMENTS(angles); i++) {
+        const FrXmlAttribute *given = fr_xml_attribute(reader->tree, scene, angles[i]);
+        if (given != NULL) {
+            fr_read_error(reader, "two-suns", given->name, "<sun> says where the sun stands");
+        }
+    }
+    int date[3];
+    if (!parse_date(sun->date, date)) {
+        fr_read_error(reader, "bad-date", fr_read_value_place(reader, node, "date"),
+                      "a date is year-month-day, like 2025-06-21, from 1900 to 2100");
+        return;
+    }
+    FrSunPosition position = fr_light_sun(date[0], date[1], date[2] + (sun->time - sun->zone) / 24,
+                                          sun->latitude, sun->longitude);
+    reader->document->scene.sun_azimuth = position.azimuth;
+    reader->document->scene.sun_elevation = position.elevation;
+}
+
+static void read_light(FrReader *reader, uint32_t node) {
+    fr_read_check_children(reader, node, FR_ELEMENT_LIGHT);
+    FrLightParams *light = &reader->document->surroundings.light;
+    fr_read_attributes(reader, node, FR_ELEMENT_LIGHT, light);
+    light->is_given = true;
+    light->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
+}
+
+void fr_read_surroundings(FrReader *reader, uint32_t scene) {
+    for (uint32_t node = fr_read_first(reader, scene, FR_ELEMENT_OBSTACLE); node != FR_NONE;
+         node = fr_read_next(reader, node, FR_ELEMENT_OBSTACLE)) {
+        read_obstacle(reader, node);
+    }
+    for (uint32_t node = fr_read_first(reader, scene, FR_ELEMENT_LAMP); node != FR_NONE;
+         node = fr_read_next(reader, node, FR_ELEMENT_LAMP)) {
+        read_lamp(reader, node);
+    }
+    uint32_t sun = fr_read_first(reader, scene, FR_ELEMENT_SUN);
+    if (sun != FR_NONE) {
+        read_sun(reader, sun, scene);
+    }
+    uint32_t light = fr_read_first(reader, scene, FR_ELEMENT_LIGHT);
+    if (light != FR_NONE) {
+        read_light(reader, light);
+    }
+}
+
+static void free_obstacle(void *obstacle) {
+    fr_params_clear(fr_obstacle_table(), obstacle);
+    g_free(obstacle);
+}
+
+static void free_lamp(void *lamp) {
+    fr_params_clear(fr_lamp_table(), lamp);
+    g_free(lamp);
+}
+
+void fr_surroundings_init(FrSurroundings *surroundings) {
+    *surroundings = (FrSurroundings){.obstacles = g_ptr_array_new_with_free_func(free_obstacle),
+                                     .lamps = g_ptr_array_new_with_free_func(free_lamp)};
+    fr_params_init(fr_sun_table(), &surroundings->sun);
+    fr_params_init(fr_light_table(), &surroundings->light);
+}
+
+void fr_surroundings_clear(FrSurroundings *surroundings) {
+    g_ptr_array_unref(surroundings->obstacles);
+    g_ptr_array_unref(surroundings->lamps);
+    fr_params_clear(fr_sun_table(), &surroundings->sun);
+    fr_params_clear(fr_light_table(), &surroundings->light);
+}
