@@ -1,17 +1,14 @@
 // Ray queries over triangles by Embree 3 (Wald, Woop, Benthin, Johnson, Ernst 2014, Embree: A
-// Kernel Framework for Efficient CPU Ray Tracing). The only file that knows Embree.
+// Kernel Framework for Efficient CPU Ray Tracing).
 //
 // Each mesh is one search tree over its triangles, read where they lie; each stand is an instance
 // of such a tree, one level deep.
 #include "frond/rays.h"
 
-#include <cglm/struct.h>
-#include <embree3/rtcore.h>
-#include <math.h>
+#include "space/embree.h"
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
+#include <cglm/struct.h>
+#include <math.h>
 
 typedef struct RayPart {
     const FrRays *rays;
@@ -37,26 +34,6 @@ struct FrRays {
     GArray *meshes; ///< RayMesh
     GArray *stands; ///< RayStand
 };
-
-// Embree is several times slower on denormals, so they count as zero during a query; the caller's
-// arithmetic must not notice.
-static inline unsigned flush_denormals(void) {
-#if defined(__SSE2__)
-    unsigned saved = _mm_getcsr();
-    _mm_setcsr(saved | 0x8040u);
-    return saved;
-#else
-    return 0;
-#endif
-}
-
-static inline void restore_denormals(unsigned saved) {
-#if defined(__SSE2__)
-    _mm_setcsr(saved);
-#else
-    (void)saved;
-#endif
-}
 
 // For N = 1 the layout of an RTCHitN is that of an RTCHit, and only single rays are asked for.
 static void skip_hole(const struct RTCFilterFunctionNArguments *arguments) {
@@ -175,20 +152,6 @@ static bool is_finite3(vec3s v) {
     return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
 
-static inline struct RTCRay make_ray(vec3s origin, vec3s direction, float near, float far) {
-    return (struct RTCRay){
-        .org_x = origin.x,
-        .org_y = origin.y,
-        .org_z = origin.z,
-        .tnear = near,
-        .dir_x = direction.x,
-        .dir_y = direction.y,
-        .dir_z = direction.z,
-        .tfar = far,
-        .mask = UINT32_MAX,
-    };
-}
-
 FrHit fr_rays_trace(const FrRays *rays, vec3s origin, vec3s direction, float near, float far) {
     FrHit hit = {
         .distance = INFINITY,
@@ -200,14 +163,14 @@ FrHit fr_rays_trace(const FrRays *rays, vec3s origin, vec3s direction, float nea
     if (!is_finite3(origin) || !is_finite3(direction) || !(near <= far)) {
         return hit;
     }
-    struct RTCRayHit query = {.ray = make_ray(origin, direction, near, far)};
+    struct RTCRayHit query = {.ray = fr_embree_ray(origin.raw, direction.raw, near, far)};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    unsigned saved = flush_denormals();
+    unsigned saved = fr_flush_denormals();
     rtcIntersect1(rays->world, &context, &query);
-    restore_denormals(saved);
+    fr_restore_denormals(saved);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return hit;
     }
@@ -231,11 +194,11 @@ bool fr_rays_is_blocked(const FrRays *rays, vec3s origin, vec3s direction, float
     if (!is_finite3(origin) || !is_finite3(direction) || !(near <= far)) {
         return false;
     }
-    struct RTCRay ray = make_ray(origin, direction, near, far);
+    struct RTCRay ray = fr_embree_ray(origin.raw, direction.raw, near, far);
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    unsigned saved = flush_denormals();
+    unsigned saved = fr_flush_denormals();
     rtcOccluded1(rays->world, &context, &ray);
-    restore_denormals(saved);
+    fr_restore_denormals(saved);
     return ray.tfar < 0.0f;
 }
