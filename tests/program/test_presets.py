@@ -1,5 +1,6 @@
 """The presets: each is sound, light, documented and a beginning that works."""
 
+import json
 import os
 import re
 import struct
@@ -39,6 +40,28 @@ def sound(preset):
         grows(preset, folder)
         begins_a_document(preset, folder)
     return test
+
+
+def plants_of(preset, *options):
+    done = tap.run("info", preset, "--json", *options)
+    assert done.stderr == "", done.stderr
+    return {plant["id"]: plant for plant in json.loads(done.stdout)["plants"]}
+
+
+def sliders_do_something(folder):
+    """At both ends of every slider a plant grows, and it is another one than before."""
+    for preset in PRESETS:
+        for name, plant in plants_of(preset).items():
+            if preset.stem != "phyllotaxis":  # whose four plants are to be compared as they are
+                assert plant["sliders"], f"{preset.stem} has no sliders"
+            for slider in plant["sliders"]:
+                what = f"{preset.stem}: {slider['id']}"
+                assert slider["label"], f"{what} has no label"
+                for end in ("min", "max"):
+                    set_to = f"--set={name}.{slider['id']}={slider[end]:.10g}"
+                    other = plants_of(preset, set_to)[name]
+                    is_same = slider[end] == slider["value"]
+                    assert (other["digest"] == plant["digest"]) == is_same, f"{what} at its {end}"
 
 
 def all_are_there(folder):
@@ -96,6 +119,7 @@ TESTS = [(f"/program/presets/{preset.stem} is sound and begins a document", soun
 TESTS += [
     ("/program/presets/the program lists them all", all_are_there),
     ("/program/presets/each is short and says what it is", each_can_be_read),
+    ("/program/presets/their sliders do something", sliders_do_something),
     ("/program/presets/the picture of a leaf has the outline of its blade", colours_meet_the_cut),
     ("/program/presets/each has a thumbnail", each_has_a_thumbnail),
     ("/program/presets/the gallery shows them all", gallery_shows_all),
