@@ -74,3 +74,26 @@ typedef struct FrPgraphCounts {
 /// ask for the i-tree (it is replaced by an array).
 FR_API FR_MUST_USE FrStatus fr_pgraph_build(const FrPgraph *graph, const FrContext *context,
                                             FrPlant **plant, FrPgraphCounts *counts);
+
+// ---- building again ---------------------------------------------------------------------------
+
+/// A build that is kept so that the next one can take over what a change did not reach. It holds
+/// the plant and, besides, some 170 bytes for each instance.
+typedef struct FrPgraphBuild FrPgraphBuild;
+
+/// Builds `graph` as fr_pgraph_build() does, bit for bit, but takes from `last` (of this or another
+/// graph; NULL: nothing) the instances that depend on nothing that differs. Which component an
+/// instance is of tells its id. A change of leaf shapes or materials alone makes no instance.
+/// `last` stays as it is, whatever happens; the two may share memory.
+FR_API FR_MUST_USE FrStatus fr_pgraph_rebuild(const FrPgraph *graph, const FrPgraphBuild *last,
+                                              const FrContext *context, FrPgraphBuild **build);
+FR_API void fr_pgraph_build_free(FrPgraphBuild *build);
+/// The plant, borrowed from the build.
+FR_API const FrPlant *fr_pgraph_build_plant(const FrPgraphBuild *build);
+/// Its counts, borrowed; without the i-tree.
+FR_API const FrPgraphCounts *fr_pgraph_build_counts(const FrPgraphBuild *build);
+/// How many instances were not made but taken over.
+FR_API uint64_t fr_pgraph_build_taken_over(const FrPgraphBuild *build);
+/// Whether nodes, axes and organs of both are the same arrays; their shapes and materials may still
+/// be others.
+FR_API bool fr_pgraph_build_shares(const FrPgraphBuild *build, const FrPgraphBuild *other);

@@ -9,6 +9,7 @@
 #include "pgraph/expand.h"
 
 #include "pgraph/global.h"
+#include "pgraph/kept.h"
 
 #include <math.h>
 
@@ -19,17 +20,22 @@ enum { GRAIN = 256 };
 static void measure_range(void *data, size_t begin, size_t end, int worker) {
     const FrExpansion *expansion = data;
     FrEvaluator evaluator = {.faults = expansion->faults[worker]};
-    for (size_t row = begin; row < end; row++) {
-        fr_instance_measure(expansion, (uint32_t)row, &evaluator);
+    for (uint32_t row = (uint32_t)begin; row < end; row++) {
+        if (expansion->level.twin[row] != FR_NONE) {
+            fr_twin_measure(expansion, row);
+        } else {
+            fr_instance_measure(expansion, row, &evaluator);
+        }
     }
 }
 
 static void count_range(void *data, size_t begin, size_t end, int worker) {
     const FrExpansion *expansion = data;
     FrEvaluator evaluator = {.faults = expansion->faults[worker]};
-    for (size_t row = begin; row < end; row++) {
-        expansion->level.child_count[row] =
-            fr_instance_children(expansion, (uint32_t)row, &evaluator);
+    for (uint32_t row = (uint32_t)begin; row < end; row++) {
+        expansion->level.child_count[row] = expansion->level.twin[row] != FR_NONE
+                                                ? fr_twin_children(expansion, row)
+                                                : fr_instance_children(expansion, row, &evaluator);
     }
 }
 
@@ -37,8 +43,16 @@ static void make_range(void *data, size_t begin, size_t end, int worker) {
     const FrExpansion *expansion = data;
     FrEvaluator evaluator = {.faults = expansion->faults[worker]};
     FrEvaluator place = {.faults = expansion->faults[worker]};
-    for (size_t row = begin; row < end; row++) {
-        fr_instance_make(expansion, (uint32_t)row, &evaluator, &place);
+    for (uint32_t row = (uint32_t)begin, run; row < end; row += MAX(run, 1)) {
+        run = fr_twin_run(expansion, row, (uint32_t)end);
+        if (run > 0) {
+            fr_twin_copy(expansion, row, run, &evaluator);
+            continue;
+        }
+        fr_instance_make(expansion, row, &evaluator, &place);
+        if (expansion->level.twin[row] != FR_NONE) {
+            fr_twin_pass_on(expansion, row);
+        }
     }
 }
 
@@ -63,6 +77,7 @@ static void counts_to_indices(uint32_t *column, uint32_t count, uint32_t first) 
         column[row] = first;
         first += size;
     }
+    column[count] = first;
 }
 
 // Scopes go to the plant, fields are done with when it is built.
@@ -144,6 +159,9 @@ static bool needs_blades(const FrExpansion *expansion) {
 static void record_level(FrBuild *build) {
     const FrLevel *level = &build->expansion.level;
     build->instances += level->count;
+    for (uint32_t row = 0; row < level->count; row++) {
+        build->taken_over += level->twin[row] != FR_NONE;
+    }
     FrPgraphCounts *counts = build->counts;
     if (counts == NULL) {
         return;
@@ -223,6 +241,7 @@ static void begin_level(FrBuild *build) {
         level->scopes[row] = 0;
         level->step[row] = 0;
     }
+    fr_twins_of_roots(expansion);
 }
 
 static gint compare_faults(gconstpointer a, gconstpointer b) {
@@ -268,11 +287,75 @@ static void report_faults(const FrBuild *build, int workers) {
         g_free(what);
         g_free(attribute);
     }
+    if (build->made != NULL) {
+        build->made->has_faults = sorted->len > 0;
+    }
     g_ptr_array_unref(sorted);
     g_hash_table_unref(first);
 }
 
-static FrStatus expand(FrBuild *build, const FrRecursions *recursions, FrUnrolled *unrolled) {
+// Keeps a level that has been made, or lets it go, and goes on with the next.
+static void step_down(FrBuild *build) {
+    FrExpansion *expansion = &build->expansion;
+    expansion->level_before = expansion->level.count;
+    if (build->levels != NULL) {
+        g_array_append_val(build->levels, expansion->level);
+    } else {
+        fr_level_clear(&expansion->level);
+    }
+    expansion->level = expansion->next;
+    expansion->next = (FrLevel){0};
+    expansion->depth++;
+    fr_progress_report(build->context->progress, "build", 1 - 1.0 / (1 + expansion->depth));
+}
+
+static FrStatus expand(FrBuild *build) {
+    FrExpansion *expansion = &build->expansion;
+    FrStatus status = fr_build_check_least(build);
+    if (status == FR_OK) {
+        begin_level(build);
+    }
+    while (status == FR_OK && expansion->level.count > 0) {
+        status = expand_level(build);
+        step_down(build);
+    }
+    if (build->levels != NULL) { // where the children of the last would be
+        g_array_append_val(build->levels, expansion->level);
+    } else {
+        fr_level_clear(&expansion->level);
+    }
+    return status;
+}
+
+// Expands the graph, or takes all of the last build's rows.
+static FrStatus expand_or_share(FrBuild *build) {
+    FrPgraphBuild *made = build->made;
+    FrTwins twins = {0};
+    if (made == NULL) {
+        return expand(build);
+    }
+    fr_kept_begin(made, build, build->last, &twins);
+    FrStatus status = FR_OK;
+    if (twins.is_all) {
+        fr_kept_share_rows(made, build->last);
+        made->taken_over = build->last->counts.instances;
+        *build->counts = build->last->counts;
+        build->counts->by_component = g_memdup2(build->last->counts.by_component,
+                                                MAX(fr_pgraph_count(build->expansion.graph), 1) *
+                                                    sizeof *build->counts->by_component);
+    } else {
+        build->levels = g_array_new(FALSE, FALSE, sizeof(FrLevel));
+        build->expansion.twins = &twins;
+        status = expand(build);
+        made->taken_over = build->taken_over;
+        fr_kept_own_rows(made, build->levels);
+        g_array_unref(build->levels);
+    }
+    fr_twins_clear(&twins);
+    return status;
+}
+
+static FrStatus prepare_and_expand(FrBuild *build, const FrRecursions *recursions) {
     FrExpansion *expansion = &build->expansion;
     const FrContext *context = build->context;
     int workers = fr_pool_threads(context->pool);
@@ -284,22 +367,7 @@ static FrStatus expand(FrBuild *build, const FrRecursions *recursions, FrUnrolle
     FrStatus status = fr_prepare(&prepared, expansion->graph, recursions, expansion->plant,
                                  expansion->faults[0], context);
     expansion->prepared = prepared;
-    expansion->unrolled = unrolled;
-    status = status == FR_OK ? fr_build_check_least(build) : status;
-    if (status == FR_OK) {
-        begin_level(build);
-    }
-    uint32_t levels = 0;
-    while (status == FR_OK && expansion->level.count > 0) {
-        status = expand_level(build);
-        expansion->level_before = expansion->level.count;
-        fr_level_clear(&expansion->level);
-        expansion->level = expansion->next;
-        expansion->next = (FrLevel){0};
-        levels++;
-        fr_progress_report(context->progress, "build", 1 - 1.0 / (1 + levels));
-    }
-    fr_level_clear(&expansion->level);
+    status = status == FR_OK ? expand_or_share(build) : status;
     report_faults(build, workers);
     for (int worker = 0; worker < workers; worker++) {
         g_hash_table_unref(expansion->faults[worker]);
@@ -321,29 +389,58 @@ static void begin_counts(FrPgraphCounts *counts, uint32_t components) {
     }
 }
 
-FrStatus fr_pgraph_build(const FrPgraph *graph, const FrContext *context, FrPlant **plant,
-                         FrPgraphCounts *counts) {
+// The plant of build->expansion is there afterwards if the graph was right, finished or not.
+static FrStatus run(FrBuild *build, FrUnrolled *unrolled) {
+    const FrPgraph *graph = build->expansion.graph;
     FrRecursions recursions;
-    FrBuild build = {.context = context, .counts = counts, .expansion = {.graph = graph}};
-    *plant = NULL;
-    begin_counts(counts, fr_pgraph_count(graph));
+    begin_counts(build->counts, fr_pgraph_count(graph));
     fr_recursions_find(&recursions, graph);
-    FrStatus status = fr_pgraph_check_all(graph, &recursions, context->diags, false);
+    FrStatus status = fr_pgraph_check_all(graph, &recursions, build->context->diags, false);
     if (status == FR_OK) {
-        FrUnrolled unrolled;
-        build.expansion.plant = fr_plant_new(graph->name);
-        build.expansion.fields = g_array_new(FALSE, TRUE, sizeof(FrField));
-        status = fr_unroll(&unrolled, graph, &recursions, context);
-        status = status == FR_OK ? expand(&build, &recursions, &unrolled) : status;
-        fr_unrolled_clear(&unrolled);
-        g_array_unref(build.expansion.fields);
+        build->expansion.plant = fr_plant_new(graph->name);
+        if (build->made != NULL) {
+            build->made->plant = build->expansion.plant;
+        }
+        build->expansion.fields = g_array_new(FALSE, TRUE, sizeof(FrField));
+        build->expansion.unrolled = unrolled;
+        status = fr_unroll(unrolled, graph, &recursions, build->context);
+        status = status == FR_OK ? prepare_and_expand(build, &recursions) : status;
+        g_array_unref(build->expansion.fields);
     }
     fr_recursions_clear(&recursions);
     if (status == FR_OK) {
-        *plant = build.expansion.plant;
-        fr_progress_report(context->progress, "build", 1);
-    } else {
+        fr_progress_report(build->context->progress, "build", 1);
+    }
+    return status;
+}
+
+FrStatus fr_pgraph_build(const FrPgraph *graph, const FrContext *context, FrPlant **plant,
+                         FrPgraphCounts *counts) {
+    FrBuild build = {.context = context, .counts = counts, .expansion = {.graph = graph}};
+    FrUnrolled unrolled = {0};
+    FrStatus status = run(&build, &unrolled);
+    if (build.expansion.plant != NULL) {
+        fr_unrolled_clear(&unrolled);
+    }
+    *plant = status == FR_OK ? build.expansion.plant : NULL;
+    if (status != FR_OK) {
         fr_plant_free(build.expansion.plant);
+    }
+    return status;
+}
+
+FrStatus fr_pgraph_rebuild(const FrPgraph *graph, const FrPgraphBuild *last,
+                           const FrContext *context, FrPgraphBuild **made) {
+    FrPgraphBuild *kept = g_new0(FrPgraphBuild, 1);
+    FrBuild build = {.context = context,
+                     .counts = &kept->counts,
+                     .made = kept,
+                     .last = last,
+                     .expansion = {.graph = graph}};
+    FrStatus status = run(&build, &kept->unrolled);
+    *made = status == FR_OK ? kept : NULL;
+    if (status != FR_OK) {
+        fr_pgraph_build_free(kept);
     }
     return status;
 }

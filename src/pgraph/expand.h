@@ -8,8 +8,12 @@ typedef struct FrBuild {
     FrExpansion expansion;
     const FrContext *context;
     FrPgraphCounts *counts;
-    uint64_t instances;  ///< of all levels so far
-    uint64_t considered; ///< with those that flags left out
+    uint64_t instances;        ///< of all levels so far
+    uint64_t considered;       ///< with those that flags left out
+    uint64_t taken_over;       ///< from the last build
+    FrPgraphBuild *made;       ///< what is kept of it; NULL: only the plant
+    const FrPgraphBuild *last; ///< NULL
+    GArray *levels;            ///< FrLevel, those that have been made; NULL if they are not kept
 } FrBuild;
 
 /// What a level will make.

@@ -195,4 +195,5 @@ void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLin
     next->scopes[at] = level->scopes[row];
     next->step[at] = level->step[row];
     next->axis[at] = child->axis;
+    next->twin[at] = FR_NONE;
 }

@@ -19,6 +19,8 @@ typedef struct FrExpansion {
     FrShape *blades;       ///< of this level's organs, for shapes to be found after the loop; NULL
     uint32_t first_organ;  ///< of this level
     GArray *fields;        ///< FrField
+    uint32_t depth;        ///< of this level, from 0
+    const struct FrTwins *twins; ///< instances of the last build; NULL
 } FrExpansion;
 
 /// Where and how large an instance is, its own transformation applied.
@@ -88,6 +90,11 @@ FrChild fr_single_child(const FrExpansion *expansion, uint32_t row, FrPose site)
 /// Writes row `organ` of the plant's organs and returns it.
 uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t organ, FrPose pose,
                         uint32_t shape);
+
+/// The shape of a leaf, or FR_NONE if it is found after the loop over the level. The variables of
+/// the instance must be set if its shape is evaluated; they are changed.
+uint32_t fr_instance_leaf_shape(const FrExpansion *expansion, uint32_t row, uint32_t organ,
+                                FrEvaluator *evaluator);
 
 /// The kinds, each from the file of its name.
 void fr_make_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,

@@ -8,7 +8,7 @@ uint64_t fr_level_row_bytes(void) {
 
 void fr_level_init(FrLevel *level, uint32_t count) {
     *level = (FrLevel){.count = count};
-#define FR_NEW(type, column) level->column = g_new(type, count);
+#define FR_NEW(type, column) level->column = g_new(type, (size_t)count + 1);
     FR_LEVEL_COLUMNS(FR_NEW)
 #undef FR_NEW
 }

@@ -12,8 +12,9 @@ enum {
     FR_JOINT_SET, ///< next point set of the parent's: belongs to `axis`
 };
 
-/// X(type, column). Sites are relative to the tip and frame of the bearer.
-#define FR_LEVEL_COLUMNS(X)                                                                        \
+/// What an instance is handed down: X(type, column). Sites are relative to the tip and frame of the
+/// bearer.
+#define FR_LEVEL_SITE(X)                                                                           \
     X(uint32_t, stage)   /* of the unrolled p-graph */                                             \
     X(uint32_t, parent)  /* instance of the level before */                                        \
     X(uint32_t, bearer)  /* node, FR_NONE: the ground */                                           \
@@ -27,19 +28,24 @@ enum {
     X(uint32_t, n1)                                                                                \
     X(uint32_t, i2)                                                                                \
     X(uint32_t, n2)                                                                                \
-    X(uint16_t, generation)   /* within the nearest recursion */                                   \
-    X(uint16_t, order)        /* branch order */                                                   \
-    X(uint8_t, joint)         /* FR_JOINT_… */                                                   \
-    X(float, x)               /* position along the parent stem */                                 \
-    X(float, parent_length)   /* of the stem it stands on, m at scale 1; < 0: there is none */     \
-    X(float, parent_radius)   /* the same, where it stands */                                      \
-    X(float, stretch)         /* factor of its length, from its parent */                          \
-    X(uint32_t, material)     /* of the plant, FR_NONE */                                          \
-    X(uint32_t, deformer)     /* scope it is in, of the plant; FR_NONE */                          \
-    X(uint32_t, field)        /* field it is in; FR_NONE */                                        \
-    X(uint16_t, scopes)       /* how many scopes and fields are around it */                       \
-    X(float, step)            /* m, most of an internode in them; 0: any */                        \
-    X(uint32_t, axis)         /* for FR_JOINT_SET */                                               \
+    X(uint16_t, generation) /* within the nearest recursion */                                     \
+    X(uint16_t, order)      /* branch order */                                                     \
+    X(uint8_t, joint)       /* FR_JOINT_… */                                                     \
+    X(float, x)             /* position along the parent stem */                                   \
+    X(float, parent_length) /* of the stem it stands on, m at scale 1; < 0: there is none */       \
+    X(float, parent_radius) /* the same, where it stands */                                        \
+    X(float, stretch)       /* factor of its length, from its parent */                            \
+    X(uint32_t, material)   /* of the plant, FR_NONE */                                            \
+    X(uint32_t, deformer)   /* scope it is in, of the plant; FR_NONE */                            \
+    X(uint32_t, field)      /* field it is in; FR_NONE */                                          \
+    X(uint16_t, scopes)     /* how many scopes and fields are around it */                         \
+    X(float, step)          /* m, most of an internode in them; 0: any */                          \
+    X(uint32_t, axis)       /* for FR_JOINT_SET */                                                 \
+    X(uint32_t, twin)       /* row of the last build that was made from the same; FR_NONE */
+
+/// What it makes: X(type, column). In a level that has been made, one row more tells where the last
+/// instance's end.
+#define FR_LEVEL_COUNTS(X)                                                                         \
     X(uint32_t, tips)         /* ends where single children stand */                               \
     X(uint32_t, places)       /* children of a multiplier, flagged-out ones counted */             \
     X(uint32_t, child_count)  /* then: index of the first child in the next level */               \
@@ -47,6 +53,8 @@ enum {
     X(uint32_t, axis_count)   /* then: index of its axis */                                        \
     X(uint32_t, organ_count)  /* then: index of its first organ */                                 \
     X(uint32_t, global_count) /* then: index of its scope in the plant, or of its field */
+
+#define FR_LEVEL_COLUMNS(X) FR_LEVEL_SITE(X) FR_LEVEL_COUNTS(X)
 
 typedef struct FrLevel {
     uint32_t count;

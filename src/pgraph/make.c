@@ -157,8 +157,8 @@ static versors leaf_rotation(const FrExpansion *expansion, uint32_t row, FrPose 
     return fr_frame_step(back, frame);
 }
 
-static uint32_t leaf_shape(const FrExpansion *expansion, uint32_t row, uint32_t organ,
-                           FrEvaluator *evaluator) {
+uint32_t fr_instance_leaf_shape(const FrExpansion *expansion, uint32_t row, uint32_t organ,
+                                FrEvaluator *evaluator) {
     const FrPrepared *prepared = prepared_of(expansion, row);
     if (prepared->shape_choice == FR_SHAPE_SAME) {
         return prepared->shape;
@@ -181,7 +181,8 @@ static void make_leaf(const FrExpansion *expansion, uint32_t row, FrEvaluator *e
     FrPose placed = pose;
     placed.rotation = leaf_rotation(expansion, row, pose, evaluator);
     uint32_t organ = level->organ_count[row];
-    fr_write_organ(expansion, row, organ, placed, leaf_shape(expansion, row, organ, evaluator));
+    fr_write_organ(expansion, row, organ, placed,
+                   fr_instance_leaf_shape(expansion, row, organ, evaluator));
     if (fr_instance_stage(expansion, row)->link_count > 0) {
         fr_make_single_children(expansion, row, fr_single_child(expansion, row, pose),
                                 level->child_count[row]);
