@@ -1,13 +1,17 @@
 // Segments become internodes: a segment where the last one ended continues its axis, also behind
-// branches; behind `[` and behind a jump begins a new one.
+// branches; behind `[` and behind a jump begins a new one. While the turtle walks only what it
+// knows is written, in the plant's coordinates; frames follow at the end, all at once.
 #include "lsystem/build.h"
 
 #include <cglm/struct.h>
 
 #include <math.h>
 
-// Nodes are appended to the plant by so many at once.
-#define BLOCK 1024
+// Rows are appended to the plant by so many at once.
+#define BLOCK 4096
+// Squared length of a line that is too short to be drawn.
+#define NO_LINE 1e-5
+#define GRAIN 8192
 
 /// A material: that of the settings, none where it is inherited, or one of its own.
 static uint32_t add_material(FrPlant *plant, FrMaterial *given, bool inherits, const char *name,
@@ -43,10 +47,6 @@ FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *co
     builder->sites = settings->sites;
     for (const char *site = builder->sites; site != NULL && *site != '\0'; site++) {
         fr_plant_add_component(builder->plant, (char[]){*site, '\0'}, (FrSpan){0});
-    }
-    for (int k = 0; k < 3; k++) {
-        builder->drawn.min[k] = INFINITY;
-        builder->drawn.max[k] = -INFINITY;
     }
     return builder;
 }
@@ -91,153 +91,144 @@ static void scale_units(FrPlant *plant, float unit) {
     }
 }
 
-FrPlant *fr_lbuilder_end(FrLbuilder *builder) {
-    FrPlant *plant = builder->plant;
-    plant->nodes.count = builder->nodes;
-    if (builder->view->style == FR_LSTYLE_PIXEL) {
-        scale_pixels(builder);
-    }
-    if (builder->unit != 1) {
-        scale_units(plant, (float)builder->unit);
-    }
-    fr_plant_update_frames(plant, 0);
-    builder->plant = NULL;
-    return plant;
-}
-
-// Shepperd's method (1978): the largest component first.
-versors fr_lbuilder_frame(const double heading[3], const double left[3]) {
-    double z[3] = {heading[0], -heading[2], heading[1]};
-    double x[3] = {left[0], -left[2], left[1]}, y[3];
-    fr_lvector_cross(z, x, y);
-    double trace = x[0] + y[1] + z[2], q[4];
+// Shepperd's method (1978): the largest component first. z is the heading, x the left.
+static versors frame_of(const float z[3], const float x[3]) {
+    float y[3] = {z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]};
+    float q[4], trace = x[0] + y[1] + z[2];
     if (trace > 0) {
-        double s = 2 * sqrt(trace + 1);
-        q[3] = s / 4;
-        q[0] = (y[2] - z[1]) / s;
-        q[1] = (z[0] - x[2]) / s;
-        q[2] = (x[1] - y[0]) / s;
+        q[3] = trace + 1;
+        q[0] = y[2] - z[1];
+        q[1] = z[0] - x[2];
+        q[2] = x[1] - y[0];
     } else if (x[0] > y[1] && x[0] > z[2]) {
-        double s = 2 * sqrt(1 + x[0] - y[1] - z[2]);
-        q[3] = (y[2] - z[1]) / s;
-        q[0] = s / 4;
-        q[1] = (y[0] + x[1]) / s;
-        q[2] = (z[0] + x[2]) / s;
+        q[3] = y[2] - z[1];
+        q[0] = 1 + x[0] - y[1] - z[2];
+        q[1] = y[0] + x[1];
+        q[2] = z[0] + x[2];
     } else if (y[1] > z[2]) {
-        double s = 2 * sqrt(1 + y[1] - x[0] - z[2]);
-        q[3] = (z[0] - x[2]) / s;
-        q[0] = (y[0] + x[1]) / s;
-        q[1] = s / 4;
-        q[2] = (z[1] + y[2]) / s;
+        q[3] = z[0] - x[2];
+        q[0] = y[0] + x[1];
+        q[1] = 1 + y[1] - x[0] - z[2];
+        q[2] = z[1] + y[2];
     } else {
-        double s = 2 * sqrt(1 + z[2] - x[0] - y[1]);
-        q[3] = (x[1] - y[0]) / s;
-        q[0] = (z[0] + x[2]) / s;
-        q[1] = (z[1] + y[2]) / s;
-        q[2] = s / 4;
+        q[3] = x[1] - y[0];
+        q[0] = z[0] + x[2];
+        q[1] = z[1] + y[2];
+        q[2] = 1 + z[2] - x[0] - y[1];
     }
-    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(length > 0)) {
+    float square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    if (!(square > 0)) {
         return GLMS_QUAT_IDENTITY;
     }
-    return (versors){{(float)(q[0] / length), (float)(q[1] / length), (float)(q[2] / length),
-                      (float)(q[3] / length)}};
+    float scale = 1 / sqrtf(square);
+    return (versors){{q[0] * scale, q[1] * scale, q[2] * scale, q[3] * scale}};
+}
+
+versors fr_lbuilder_frame(const double heading[3], const double left[3]) {
+    vec3s z = fr_lturtle_world(heading), x = fr_lturtle_world(left);
+    return frame_of(z.raw, x.raw);
 }
 
 static versors conjugate(versors q) {
     return (versors){{-q.x, -q.y, -q.z, q.w}};
 }
 
-static void include(FrLdrawn *drawn, const double point[3]) {
-    for (int k = 0; k < 3; k++) {
-        drawn->min[k] = fmin(drawn->min[k], point[k]);
-        drawn->max[k] = fmax(drawn->max[k], point[k]);
+// ---- while the turtle walks -------------------------------------------------------------------
+
+/// Room for one more node; false after a failure.
+static bool grow_nodes(FrLbuilder *builder) {
+    FrStatus status =
+        fr_limit_check(builder->nodes + UINT64_C(1), builder->context->limits.nodes, "nodes",
+                       "the segments of the string", (FrSpan){0}, builder->context->diags);
+    if (status != FR_OK) {
+        builder->status = status;
+        return false;
     }
+    uint64_t most = builder->context->limits.nodes - builder->nodes;
+    fr_plant_append_nodes(builder->plant, (uint32_t)MIN(most, BLOCK));
+    return true;
 }
 
-static uint32_t add_node(FrLbuilder *builder) {
+/// Begins an axis where the segment starts; its offset is in the plant's coordinates until the end.
+static uint32_t begin_axis(FrLbuilder *builder, const FrLstand *stand, const FrLsegment *segment) {
     FrPlant *plant = builder->plant;
-    if (builder->nodes == plant->nodes.count) {
-        FrStatus status =
-            fr_limit_check(builder->nodes + UINT64_C(1), builder->context->limits.nodes, "nodes",
-                           "the segments of the string", (FrSpan){0}, builder->context->diags);
-        if (status != FR_OK) {
-            builder->status = status;
-            return FR_NONE;
+    FrAxes *axes = &plant->axes;
+    if (builder->axes == axes->count) {
+        fr_plant_append_axes(plant, BLOCK);
+    }
+    uint32_t axis = builder->axes++;
+    vec3s start = fr_lturtle_world(segment->start);
+    axes->bearer[axis] = stand->node;
+    if (stand->node == FR_NONE) {
+        axes->offset[axis] = start;
+    } else {
+        uint16_t order = axes->order[plant->nodes.axis[stand->node]];
+        axes->order[axis] = (uint16_t)(order + (order < UINT16_MAX));
+        if (!stand->is_at_tip) {
+            axes->offset[axis] = glms_vec3_sub(start, plant->nodes.position[stand->node]);
         }
-        fr_plant_append_nodes(plant, BLOCK);
     }
-    return builder->nodes++;
-}
-
-static uint32_t begin_axis(FrLbuilder *builder, const FrLpose *pose, const FrLsegment *segment) {
-    FrPlant *plant = builder->plant;
-    vec3s start = fr_lturtle_world(segment->start), offset = {{0, 0, 0}};
-    if (pose->node == FR_NONE) {
-        offset = start;
-    } else if (!pose->is_at_tip) {
-        offset = glms_vec3_sub(start, plant->nodes.position[pose->node]);
-        offset = glms_quat_rotatev(conjugate(plant->nodes.frame[pose->node]), offset);
-    }
-    uint32_t axis = fr_plant_add_axis(plant, pose->node, offset, (float)(segment->start_width / 2));
-    plant->axes.component[axis] = builder->segment_component;
-    plant->axes.material[axis] = builder->wood;
-    plant->axes.path[axis] = fr_key_child(fr_key_root(0), segment->module);
+    axes->base_radius[axis] = segment->start_width / 2;
+    axes->component[axis] = builder->segment_component;
+    axes->material[axis] = builder->wood;
+    axes->path[axis] = fr_key_child(fr_key_root(0), segment->module);
     return axis;
 }
 
-void fr_lbuilder_segment(FrLbuilder *builder, FrLpose *pose, const FrLsegment *segment) {
-    FrPlant *plant = builder->plant;
-    double length = 0;
+static double square_of(const FrLsegment *segment) {
+    double square = 0;
     for (int k = 0; k < 3; k++) {
         double d = segment->end[k] - segment->start[k];
-        length += d * d;
+        square += d * d;
     }
-    length = sqrt(length);
-    include(&builder->drawn, segment->start);
-    include(&builder->drawn, segment->end);
-    if (length == 0) {
-        return;
-    }
-    uint32_t node = add_node(builder);
-    if (node == FR_NONE) {
-        return;
-    }
-    builder->drawn.segments++;
-    builder->drawn.length += length;
-    FrNodes *nodes = &plant->nodes;
-    bool continues = pose->node != FR_NONE && pose->is_at_tip && !pose->is_lateral &&
-                     nodes->next[pose->node] == FR_NONE;
-    uint32_t axis = continues ? nodes->axis[pose->node] : begin_axis(builder, pose, segment);
-    uint32_t parent = pose->node;
-    versors base = parent == FR_NONE ? GLMS_QUAT_IDENTITY : nodes->frame[parent];
-    bool is_backward =
-        fr_lvector_dot(segment->heading, (double[3]){segment->end[0] - segment->start[0],
-                                                     segment->end[1] - segment->start[1],
-                                                     segment->end[2] - segment->start[2]}) < 0;
-    double heading[3];
-    for (int k = 0; k < 3; k++) {
-        heading[k] = is_backward ? -segment->heading[k] : segment->heading[k];
-    }
-    versors frame = fr_lbuilder_frame(heading, segment->left);
-    nodes->rotation[node] = glms_quat_normalize(glms_quat_mul(conjugate(base), frame));
-    nodes->frame[node] = fr_frame_step(base, nodes->rotation[node]);
-    nodes->position[node] = fr_lturtle_world(segment->end);
-    nodes->parent[node] = parent;
-    nodes->axis[node] = axis;
-    nodes->length[node] = (float)length;
-    nodes->radius[node] = (float)(segment->end_width / 2);
-    if (continues) {
-        nodes->next[parent] = node;
-    } else {
-        plant->axes.first[axis] = node;
-    }
-    plant->axes.last[axis] = node;
-    pose->node = node;
-    pose->is_at_tip = true;
-    pose->is_lateral = false;
+    return square;
 }
 
+void fr_lbuilder_count(FrLbuilder *builder, const FrLsegment *segment) {
+    double square = square_of(segment);
+    if (square > NO_LINE && segment->end_width > 0) {
+        builder->drawn.segments++;
+        builder->drawn.length += sqrt(square);
+    }
+}
+
+void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment) {
+    double square = square_of(segment);
+    if (!(square > 0) ||
+        (builder->nodes == builder->plant->nodes.count && !grow_nodes(builder))) {
+        return;
+    }
+    FrNodes *nodes = &builder->plant->nodes;
+    FrAxes *axes = &builder->plant->axes;
+    uint32_t node = builder->nodes++, parent = stand->node, axis;
+    if (parent != FR_NONE && stand->is_at_tip && !stand->is_lateral &&
+        nodes->next[parent] == FR_NONE) {
+        axis = nodes->axis[parent];
+        nodes->next[parent] = node;
+    } else {
+        axis = begin_axis(builder, stand, segment);
+        axes->first[axis] = node;
+    }
+    axes->last[axis] = node;
+    nodes->parent[node] = parent;
+    nodes->axis[node] = axis;
+    nodes->position[node] = fr_lturtle_world(segment->end);
+    nodes->length[node] = (float)sqrt(square);
+    nodes->radius[node] = segment->end_width / 2;
+    vec3s heading = fr_lturtle_world(segment->heading), left = fr_lturtle_world(segment->left);
+    float sign = segment->is_backward ? -1 : 1;
+    // Heading and left wait in the columns that their frame will take.
+    nodes->frame[node] = (versors){{sign * heading.x, sign * heading.y, sign * heading.z, left.x}};
+    nodes->rotation[node] = (versors){{left.y, left.z, 0, 1}};
+    *stand = (FrLstand){node, true, false};
+}
+
+void fr_lbuilder_segment(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment) {
+    fr_lbuilder_count(builder, segment);
+    fr_lbuilder_node(builder, stand, segment);
+}
+
+// Where an organ stands is told in the plant's coordinates until the end.
 void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at[3], uint32_t shape,
                        double scale, uint32_t material) {
     FrPlant *plant = builder->plant;
@@ -248,18 +239,13 @@ void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at
         builder->status = MAX(builder->status, status);
         return;
     }
-    uint32_t organ = fr_plant_append_organs(plant, 1);
-    versors frame = fr_lbuilder_frame(pose->heading, pose->left);
+    uint32_t organ = fr_plant_append_organs(plant, 1), node = pose->stand.node;
     vec3s offset = fr_lturtle_world(at);
-    if (pose->node != FR_NONE) {
-        versors back = conjugate(plant->nodes.frame[pose->node]);
-        offset = glms_quat_rotatev(back, glms_vec3_sub(offset, plant->nodes.position[pose->node]));
-        frame = glms_quat_normalize(glms_quat_mul(back, frame));
-    }
     FrOrgans *organs = &plant->organs;
-    organs->node[organ] = pose->node;
-    organs->offset[organ] = offset;
-    organs->rotation[organ] = frame;
+    organs->node[organ] = node;
+    organs->offset[organ] =
+        node == FR_NONE ? offset : glms_vec3_sub(offset, plant->nodes.position[node]);
+    organs->rotation[organ] = fr_lbuilder_frame(pose->heading, pose->left);
     organs->scale[organ] = (float)MIN(scale, 1e9);
     organs->shape[organ] = shape;
     organs->material[organ] = material;
@@ -276,4 +262,72 @@ void fr_lbuilder_site(FrLbuilder *builder, const FrLpose *pose, char symbol, dou
         builder->plant->organs.component[before] =
             builder->organ_component + 1 + (uint32_t)(site - builder->sites);
     }
+}
+
+// ---- at the end -------------------------------------------------------------------------------
+
+static void frame_nodes(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    FrNodes *nodes = &((FrLbuilder *)data)->plant->nodes;
+    for (size_t i = begin; i < end; i++) {
+        versors a = nodes->frame[i], b = nodes->rotation[i];
+        float left[3] = {a.w, b.x, b.y};
+        nodes->frame[i] = frame_of(a.raw, left);
+    }
+}
+
+/// conj(a)·b
+static inline versors between(versors a, versors b) {
+    return (versors){{a.w * b.x - a.x * b.w - (a.y * b.z - a.z * b.y),
+                      a.w * b.y - a.y * b.w - (a.z * b.x - a.x * b.z),
+                      a.w * b.z - a.z * b.w - (a.x * b.y - a.y * b.x),
+                      a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z}};
+}
+
+static void turn_nodes(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    FrNodes *nodes = &((FrLbuilder *)data)->plant->nodes;
+    for (size_t i = begin; i < end; i++) {
+        uint32_t parent = nodes->parent[i];
+        nodes->rotation[i] =
+            parent == FR_NONE ? nodes->frame[i] : between(nodes->frame[parent], nodes->frame[i]);
+    }
+}
+
+static void settle(FrPlant *plant) {
+    FrAxes *axes = &plant->axes;
+    FrOrgans *organs = &plant->organs;
+    for (uint32_t i = 0; i < axes->count; i++) {
+        vec3s *offset = &axes->offset[i];
+        if (axes->bearer[i] != FR_NONE && (offset->x != 0 || offset->y != 0 || offset->z != 0)) {
+            *offset =
+                glms_quat_rotatev(conjugate(plant->nodes.frame[axes->bearer[i]]), *offset);
+        }
+    }
+    for (uint32_t i = 0; i < organs->count; i++) {
+        if (organs->node[i] != FR_NONE) {
+            versors frame = plant->nodes.frame[organs->node[i]];
+            organs->offset[i] = glms_quat_rotatev(conjugate(frame), organs->offset[i]);
+            organs->rotation[i] = glms_quat_normalize(between(frame, organs->rotation[i]));
+        }
+    }
+}
+
+FrPlant *fr_lbuilder_end(FrLbuilder *builder) {
+    FrPlant *plant = builder->plant;
+    const FrContext *context = builder->context;
+    plant->nodes.count = builder->nodes;
+    plant->axes.count = builder->axes;
+    fr_parallel_for(context->pool, builder->nodes, GRAIN, frame_nodes, builder, NULL);
+    fr_parallel_for(context->pool, builder->nodes, GRAIN, turn_nodes, builder, NULL);
+    settle(plant);
+    if (builder->view->style == FR_LSTYLE_PIXEL) {
+        scale_pixels(builder);
+    }
+    if (builder->unit != 1) {
+        scale_units(plant, (float)builder->unit);
+    }
+    fr_plant_update_frames(plant, 0);
+    builder->plant = NULL;
+    return plant;
 }

@@ -10,7 +10,7 @@ struct FrLbuilder {
     const FrLview *view;
     FrLdrawn drawn;
     FrStatus status;
-    uint32_t nodes; ///< in use; the plant has some more
+    uint32_t nodes, axes; ///< in use; the plant has some more
     uint32_t segment_component, organ_component;
     uint32_t wood, leaf; ///< materials
     double unit;         ///< metres of one unit of the file
@@ -18,13 +18,25 @@ struct FrLbuilder {
 };
 
 FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *context);
-/// Ends the plant; NULL after a failure.
+/// Ends the plant: what was kept in the plant's coordinates becomes relative to its bearers.
 FrPlant *fr_lbuilder_end(FrLbuilder *builder);
 void fr_lbuilder_free(FrLbuilder *builder);
-/// Appends an internode where the pose stands; the pose then stands on it.
-void fr_lbuilder_segment(FrLbuilder *builder, FrLpose *pose, const FrLsegment *segment);
 /// Places something where the turtle is: an organ without a shape, of the symbol's component.
 void fr_lbuilder_site(FrLbuilder *builder, const FrLpose *pose, char symbol, double scale);
+/// Appends an internode; it is where one then stands. Counted apart if it is a segment of F or G.
+void fr_lbuilder_segment(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment);
+/// Appends an internode that is not counted as drawn.
+void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment);
+/// Counts a line from one point to the other as drawn, if it is long enough to be.
+void fr_lbuilder_count(FrLbuilder *builder, const FrLsegment *segment);
+/// Counts a point into the bounding box.
+static inline void fr_lbuilder_include(FrLbuilder *builder, const double at[3]) {
+    FrLdrawn *drawn = &builder->drawn;
+    for (int k = 0; k < 3; k++) {
+        drawn->min[k] = at[k] < drawn->min[k] ? at[k] : drawn->min[k];
+        drawn->max[k] = at[k] > drawn->max[k] ? at[k] : drawn->max[k];
+    }
+}
 /// A frame of the plant from the turtle's axes.
 versors fr_lbuilder_frame(const double heading[3], const double left[3]);
 /// Places an organ of a shape at a point with the turtle's axes.
@@ -34,23 +46,11 @@ void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at
 // ---- organs.c ---------------------------------------------------------------------------------
 
 /// A filled polygon; `pose` is that of its begin.
-void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const FrLpoint *points,
+void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const double (*points)[3],
                          uint32_t count);
 void fr_lbuilder_sphere(FrLbuilder *builder, const FrLpose *pose, double diameter);
-void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter);
+void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter,
+                      bool faces_viewer);
 /// Draws a surface of the view, scaled along left, heading and up.
 void fr_lbuilder_surface(FrLbuilder *builder, const FrLpose *pose, const FrLsurface *surface,
                          const double scale[3]);
-
-// ---- cylinder.c -------------------------------------------------------------------------------
-
-typedef enum FrLcylinderKind {
-    FR_LHERMITE_OPEN = 1,
-    FR_LHERMITE_CLOSED,
-    FR_LSPLINE_OPEN,
-    FR_LSPLINE_CLOSED
-} FrLcylinderKind;
-
-/// A generalized cylinder through or along control points.
-void fr_lbuilder_cylinder(FrLbuilder *builder, FrLpose *pose, FrLcylinderKind kind,
-                          const FrLpoint *points, uint32_t count);

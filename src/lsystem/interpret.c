@@ -274,18 +274,33 @@ static bool take_module(void *data, const uint32_t *module, uint64_t origin) {
     return fr_lturtle_take(data, module, origin);
 }
 
+static bool has_homomorphism(const FrLsystem *system) {
+    bool has_any = false;
+    for (guint u = 0; u < system->units->len; u++) {
+        const FrLunit *unit = g_ptr_array_index(system->units, u);
+        has_any |= unit->sections[FR_LHOMOMORPHISM].list->len > 0;
+    }
+    return has_any;
+}
+
 FrStatus fr_lderivation_plant(FrLderivation *derivation, const FrContext *context, FrPlant **plant,
                               FrLdrawn *drawn) {
     *plant = NULL;
-    FrStatus status = fr_lderivation_ask(derivation, context);
+    // In papers what an environment tells is drawn; cpfg asks no more after the last step.
+    FrStatus status =
+        derivation->system->is_paper ? fr_lderivation_ask(derivation, context) : FR_OK;
     if (status != FR_OK) {
         return status;
     }
     FrLbuilder *builder = fr_lbuilder_new(derivation, context);
     FrLturtle turtle;
     fr_lturtle_init(&turtle, derivation, builder, context);
-    status = fr_lderive_interpret(derivation, take_module, &turtle.is_raw, &turtle, context);
-    fr_lturtle_close_segment(&turtle);
+    if (has_homomorphism(derivation->system)) {
+        status = fr_lderive_interpret(derivation, take_module, &turtle.is_raw, &turtle, context);
+    } else {
+        fr_lturtle_read(&turtle, derivation->string);
+    }
+    fr_lturtle_end_node(&turtle);
     status = MAX(status, MAX(turtle.status, builder->status));
     builder->drawn.modules = turtle.modules;
     if (drawn != NULL) {

@@ -156,7 +156,7 @@ static uint32_t settle(double (*at)[3], uint32_t count, double *unit) {
     return kept > 1 && memcmp(at[0], at[kept - 1], sizeof at[0]) == 0 ? kept - 1 : kept;
 }
 
-void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const FrLpoint *points,
+void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const double (*points)[3],
                          uint32_t count) {
     if (count < 3) {
         return;
@@ -164,11 +164,7 @@ void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const FrLpoin
     builder->drawn.polygons++;
     double(*local)[3] = g_malloc_n(count, sizeof *local);
     for (uint32_t i = 0; i < count; i++) {
-        localize(pose, points[i].position, local[i]);
-        for (int k = 0; k < 3; k++) {
-            builder->drawn.min[k] = fmin(builder->drawn.min[k], points[i].position[k]);
-            builder->drawn.max[k] = fmax(builder->drawn.max[k], points[i].position[k]);
-        }
+        localize(pose, points[i], local[i]);
     }
     double unit;
     count = settle(local, count, &unit);
@@ -192,9 +188,30 @@ void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const FrLpoin
 
 // ---- surfaces ---------------------------------------------------------------------------------
 
+/// Counts control points of patches and corners of triangles into the bounding box.
+static void include_surface(FrLbuilder *builder, const FrLpose *pose, const FrLsurface *surface,
+                            const double scale[3]) {
+    uint32_t count = surface->is_mesh ? surface->count : surface->hull_count;
+    for (uint32_t i = 0; i < count; i++) {
+        double at[3], p[3];
+        for (int k = 0; k < 3; k++) {
+            p[k] = scale[k] * (surface->is_mesh ? (double)surface->corners[i][k]
+                                                : surface->hull[i][k]);
+        }
+        for (int k = 0; k < 3; k++) {
+            at[k] = p[0] * pose->left[k] + p[1] * pose->heading[k] + p[2] * pose->up[k] +
+                    pose->position[k];
+        }
+        fr_lbuilder_include(builder, at);
+    }
+}
+
 void fr_lbuilder_surface(FrLbuilder *builder, const FrLpose *pose, const FrLsurface *surface,
                          const double scale[3]) {
     builder->drawn.surfaces++;
+    if (scale[0] != 0 && scale[1] != 0 && scale[2] != 0) {
+        include_surface(builder, pose, surface, scale);
+    }
     double size = fmax(fabs(scale[0]), fmax(fabs(scale[1]), fabs(scale[2])));
     if (!(size > 0) || !isfinite(size)) {
         return;
@@ -238,19 +255,30 @@ static void add_primitive(FrLbuilder *builder, const FrLpose *pose, double diame
     double at[3];
     for (int k = 0; k < 3; k++) {
         at[k] = pose->position[k] - pose->heading[k] * diameter / 2;
-        builder->drawn.min[k] = fmin(builder->drawn.min[k], pose->position[k] - diameter / 2);
-        builder->drawn.max[k] = fmax(builder->drawn.max[k], pose->position[k] + diameter / 2);
     }
     fr_lbuilder_organ(builder, pose, at, fr_plant_add_shape(builder->plant, &shape), diameter,
                       material);
 }
 
+/// Counts a box about the turtle into the bounding box, `depth` in z.
+static void include_around(FrLbuilder *builder, const double at[3], double radius, double depth) {
+    fr_lbuilder_include(builder,
+                        (double[3]){at[0] - radius, at[1] - radius, at[2] - depth});
+    fr_lbuilder_include(builder,
+                        (double[3]){at[0] + radius, at[1] + radius, at[2] + depth});
+}
+
 void fr_lbuilder_sphere(FrLbuilder *builder, const FrLpose *pose, double diameter) {
     builder->drawn.spheres++;
+    include_around(builder, pose->position, diameter / 2, diameter / 2);
     add_primitive(builder, pose, diameter, FR_SHAPE_SPHERE, builder->leaf);
 }
 
-void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter) {
+// cpfg counts discs as if they faced z, those that face the viewer at z 0.
+void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter,
+                      bool faces_viewer) {
+    double z = faces_viewer ? 0 : pose->position[2];
     builder->drawn.discs++;
+    include_around(builder, (double[3]){pose->position[0], pose->position[1], z}, diameter / 2, 0);
     add_primitive(builder, pose, diameter, FR_SHAPE_CIRCLE, builder->leaf);
 }

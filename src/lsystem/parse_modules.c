@@ -117,6 +117,7 @@ FrLmodules fr_lparse_modules(FrLparser *parser) {
         for (int symbol; !parser->has_failed && (symbol = read_symbol(parser)) >= 0;) {
             read_module(parser, symbol, &modules);
             system->has_cut |= symbol == '%';
+            system->has_at |= symbol == '@';
             system->is_open |= before == '?' && strchr("PHLUQE", symbol) != NULL;
             before = symbol;
         }

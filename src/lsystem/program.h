@@ -182,6 +182,7 @@ struct FrLsystem {
     GArray *values;      ///< double: set from outside, variables from FR_LVAR_FIRST on
     bool is_open;        ///< asks an environment or the turtle
     bool has_cut;        ///< % occurs
+    bool has_at;         ///< @ occurs, so that more of the turtle's state may change
     bool is_paper;       ///< written in the notation of papers
 };
 

@@ -20,19 +20,16 @@ static void unit(double v[3]) {
     }
 }
 
-static double dot(const double a[3], const double b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// Coordinates along left, heading and up, from the contact point, in units of the view.
+/// A point of the file in the turtle's axes, from the contact point, in units of the view. As in
+/// cpfg the coordinates count along the basis, whose x is left, y heading and z up.
 static void place(const Basis *basis, double scale, const double point[3], double out[3]) {
     double d[3];
     for (int k = 0; k < 3; k++) {
         d[k] = (point[k] - basis->contact[k]) * scale;
     }
-    out[0] = dot(d, basis->left);
-    out[1] = dot(d, basis->heading);
-    out[2] = dot(d, basis->up);
+    for (int k = 0; k < 3; k++) {
+        out[k] = d[0] * basis->left[k] + d[1] * basis->heading[k] + d[2] * basis->up[k];
+    }
 }
 
 static bool read_keyword(Basis *basis, const char *line) {
@@ -78,9 +75,14 @@ static void add_corner(GArray *corners, const Basis *basis, double scale, const 
     g_array_append_vals(corners, corner, 1);
 }
 
-static void add_patch(GArray *corners, const Basis *basis, double scale, const double points[16][3],
-                      int s, int t) {
+static void add_patch(GArray *corners, GArray *hull, const Basis *basis, double scale,
+                      const double points[16][3], int s, int t) {
     static const int order[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    for (int i = 0; i < 16; i++) {
+        double at[3];
+        place(basis, scale, points[i], at);
+        g_array_append_vals(hull, at, 1);
+    }
     for (int i = 0; i < s; i++) {
         for (int j = 0; j < t; j++) {
             for (int c = 0; c < 6; c++) {
@@ -92,14 +94,20 @@ static void add_patch(GArray *corners, const Basis *basis, double scale, const d
     }
 }
 
+/// `hull` is NULL for triangles, whose corners bound them.
 static bool add_surface(GArray *surfaces, const Basis *basis, double scale, char symbol,
-                        GArray *corners) {
-    FrLsurface surface = {.symbol = symbol, .count = corners->len};
+                        GArray *corners, GArray *hull) {
+    FrLsurface surface = {.symbol = symbol, .count = corners->len, .is_mesh = hull == NULL};
     bool is_empty = corners->len == 0;
     place(basis, scale, basis->end, surface.end);
     surface.corners = (float(*)[3])(void *)g_array_free(corners, FALSE);
+    if (hull != NULL) {
+        surface.hull_count = hull->len;
+        surface.hull = (double(*)[3])(void *)g_array_free(hull, FALSE);
+    }
     if (is_empty) {
         g_free(surface.corners);
+        g_free(surface.hull);
         return false;
     }
     g_array_append_val(surfaces, surface);
@@ -116,6 +124,10 @@ static void settle(Basis *basis) {
     basis->left[0] = basis->heading[1] * basis->up[2] - basis->heading[2] * basis->up[1];
     basis->left[1] = basis->heading[2] * basis->up[0] - basis->heading[0] * basis->up[2];
     basis->left[2] = basis->heading[0] * basis->up[1] - basis->heading[1] * basis->up[0];
+    const double *left = basis->left, *heading = basis->heading;
+    basis->up[0] = left[1] * heading[2] - left[2] * heading[1];
+    basis->up[1] = left[2] * heading[0] - left[0] * heading[2];
+    basis->up[2] = left[0] * heading[1] - left[1] * heading[0];
 }
 
 bool fr_lcompanion_patches(FrSource *source, GArray *surfaces, char symbol, double size, int s,
@@ -123,6 +135,7 @@ bool fr_lcompanion_patches(FrSource *source, GArray *surfaces, char symbol, doub
     size_t bytes;
     char **lines = g_strsplit(fr_source_text(source, &bytes), "\n", -1);
     GArray *corners = g_array_new(FALSE, FALSE, 3 * sizeof(float));
+    GArray *hull = g_array_new(FALSE, FALSE, 3 * sizeof(double));
     Basis basis = basis_default();
     double points[16][3];
     int rows = 0, patches = 0;
@@ -138,7 +151,7 @@ bool fr_lcompanion_patches(FrSource *source, GArray *surfaces, char symbol, doub
         memcpy(points[4 * rows], n, sizeof n);
         if (++rows == 4) {
             settle(&basis);
-            add_patch(corners, &basis, size / basis.size, (const double(*)[3])points,
+            add_patch(corners, hull, &basis, size / basis.size, (const double(*)[3])points,
                       CLAMP(s > 0 ? s : basis.s, 1, 40), CLAMP(t > 0 ? t : basis.t, 1, 40));
             rows = 0;
             patches++;
@@ -146,7 +159,7 @@ bool fr_lcompanion_patches(FrSource *source, GArray *surfaces, char symbol, doub
     }
     g_strfreev(lines);
     settle(&basis);
-    return add_surface(surfaces, &basis, size / basis.size, symbol, corners);
+    return add_surface(surfaces, &basis, size / basis.size, symbol, corners, hull);
 }
 
 bool fr_lcompanion_triangles(FrSource *source, GArray *surfaces, char symbol, double size) {
@@ -166,5 +179,5 @@ bool fr_lcompanion_triangles(FrSource *source, GArray *surfaces, char symbol, do
     }
     g_array_set_size(corners, corners->len - corners->len % 3);
     g_strfreev(lines);
-    return add_surface(surfaces, &basis, size / basis.size, symbol, corners);
+    return add_surface(surfaces, &basis, size / basis.size, symbol, corners, NULL);
 }

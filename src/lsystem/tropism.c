@@ -32,24 +32,39 @@ void fr_lvector_rotate(double v[3], const double axis[3], double sine, double co
     }
 }
 
+/// Turns `up` as the least rotation turns one heading into another. False where they hardly differ.
+static bool carry(const double from[3], const double to[3], double up[3]) {
+    double axis[3];
+    fr_lvector_cross(from, to, axis);
+    double sine = sqrt(fr_lvector_dot(axis, axis)), cosine = fr_lvector_dot(from, to);
+    if (sine <= 1e-6) {
+        return false;
+    }
+    fr_lvector_unit(axis);
+    sine = MIN(sine, 1);
+    double other = sqrt(1 - sine * sine);
+    fr_lvector_rotate(up, axis, sine, cosine < 0 ? -other : other);
+    return true;
+}
+
+// A heading that has not changed keeps up as it is, rolls included.
 void fr_lturtle_untwist(FrLpose *pose) {
-    double axis[3], up[3] = {pose->last_up[0], pose->last_up[1], pose->last_up[2]};
-    fr_lvector_cross(pose->last_heading, pose->heading, axis);
-    double sine = sqrt(fr_lvector_dot(axis, axis));
-    double cosine = fr_lvector_dot(pose->last_heading, pose->heading);
-    if (sine > 1e-12) {
-        fr_lvector_unit(axis);
-        fr_lvector_rotate(up, axis, sine, cosine);
-    } else if (cosine < 0) {
-        return; // turned round: any twist is as small as another
+    double up[3] = {pose->last_up[0], pose->last_up[1], pose->last_up[2]};
+    if (carry(pose->last_heading, pose->heading, up)) {
+        memcpy(pose->up, up, sizeof up);
     }
     // Left = H × U in the turtle's left-handed axes.
-    double along = fr_lvector_dot(up, pose->heading);
-    for (int k = 0; k < 3; k++) {
-        pose->up[k] = up[k] - along * pose->heading[k];
-    }
-    fr_lvector_unit(pose->up);
     fr_lvector_cross(pose->heading, pose->up, pose->left);
+}
+
+void fr_lpoint_untwist(FrLpoint *point, const FrLpoint *before, double roll) {
+    double up[3] = {before->up[0], before->up[1], before->up[2]};
+    carry(before->heading, point->heading, up);
+    if (roll != 0) {
+        fr_lvector_rotate(up, point->heading, -sin(roll), cos(roll));
+    }
+    memcpy(point->up, up, sizeof up);
+    fr_lvector_cross(point->heading, point->up, point->left);
 }
 
 /// Adds the pull of one tropism to `sum`.
@@ -57,35 +72,56 @@ static void pull(const FrLpose *pose, const FrLtropism *tropism, double elastici
     double right[3], other[3];
     fr_lvector_cross(pose->heading, tropism->direction, right);
     double length = sqrt(fr_lvector_dot(right, right));
-    const double *r = length > 1e-12 ? right : pose->left;
+    const double *r = length >= 1e-7 ? right : pose->left;
     fr_lvector_cross(tropism->direction, r, other);
-    double cosine = cos(tropism->angle), sine = sin(tropism->angle) / (length > 1e-12 ? length : 1);
+    double cosine = cos(tropism->angle), sine = sin(tropism->angle) / (length >= 1e-7 ? length : 1);
     for (int k = 0; k < 3; k++) {
         sum[k] += elasticity * (cosine * tropism->direction[k] + sine * other[k]);
     }
 }
 
+// cpfg's quaternion turns up by the angle to the target, but away from it.
 static void twist(FrLpose *pose, const double target[3]) {
-    double along = fr_lvector_dot(target, pose->heading), flat[3], axis[3];
-    for (int k = 0; k < 3; k++) {
-        flat[k] = target[k] - along * pose->heading[k];
-    }
-    double length = sqrt(fr_lvector_dot(flat, flat));
-    if (length < 1e-12) {
+    double unit[3] = {target[0], target[1], target[2]}, side[3], flat[3], axis[3];
+    fr_lvector_unit(unit);
+    fr_lvector_cross(pose->heading, unit, side);
+    if (!(fr_lvector_dot(side, side) > 1e-8)) {
         return;
     }
+    double length = sqrt(fr_lvector_dot(target, target));
+    fr_lvector_cross(side, pose->heading, flat);
+    for (int k = 0; k < 3; k++) {
+        flat[k] *= length;
+    }
     fr_lvector_cross(pose->up, flat, axis);
-    double side = fr_lvector_dot(axis, pose->heading); // length · sin of the angle, with its sign
-    double angle = CLAMP(side, -1, 1);
-    fr_lvector_rotate(pose->up, pose->heading, sin(angle), cos(angle));
-    fr_lvector_cross(pose->heading, pose->up, pose->left);
+    double angle = sqrt(fr_lvector_dot(axis, axis));
+    if (angle >= 1e-7 && isfinite(angle)) {
+        fr_lvector_unit(axis);
+        angle = MIN(angle, 1);
+        fr_lvector_rotate(pose->up, axis, -sin(angle), cos(angle));
+        fr_lvector_cross(pose->heading, pose->up, pose->left);
+    }
+    memcpy(pose->last_heading, pose->heading, sizeof pose->last_heading);
+    memcpy(pose->last_up, pose->up, sizeof pose->last_up);
+}
+
+/// Turns the heading about `axis` by its length. Lengths above 1 make a quaternion that is not of
+/// unit length, hence the arc tangent.
+static void bend(FrLpose *pose, double axis[3]) {
+    double length = sqrt(fr_lvector_dot(axis, axis));
+    if (!(length >= 1e-6) || !isfinite(length)) {
+        return;
+    }
+    double angle = length <= 1 ? length : 2 * atan2(sin(0.5) * length, cos(0.5));
+    fr_lvector_unit(axis);
+    fr_lvector_rotate(pose->heading, axis, sin(angle), cos(angle));
+    fr_lturtle_untwist(pose);
 }
 
 void fr_lturtle_bend(FrLturtle *turtle) {
     const GArray *tropisms = turtle->view->tropisms;
     FrLpose *pose = &turtle->pose;
-    double sum[3] = {0, 0, 0}, torque[3] = {0, 0, 0};
-    bool bends = false, twists = false;
+    double sum[3] = {0, 0, 0}, torque[3] = {0, 0, 0}, axis[3];
     for (guint i = 0; i < MIN(tropisms->len, FR_LTROPISMS); i++) {
         const FrLtropism *tropism = &g_array_index(tropisms, FrLtropism, i);
         double e = pose->elasticities[i];
@@ -93,37 +129,23 @@ void fr_lturtle_bend(FrLturtle *turtle) {
             for (int k = 0; k < 3; k++) {
                 torque[k] += e * tropism->direction[k];
             }
-            twists |= e != 0;
         } else if (e != 0) {
             pull(pose, tropism, e, sum);
-            bends = true;
         }
     }
-    if (bends) {
-        double axis[3];
-        fr_lvector_cross(pose->heading, sum, axis);
-        double angle = sqrt(fr_lvector_dot(axis, axis));
-        if (angle > 1e-12 && isfinite(angle)) {
-            fr_lvector_unit(axis);
-            angle = MIN(angle, 1);
-            fr_lvector_rotate(pose->heading, axis, sin(angle), cos(angle));
-            fr_lvector_unit(pose->heading);
-        }
-        fr_lturtle_untwist(pose);
-    }
-    if (twists) {
+    fr_lvector_cross(pose->heading, sum, axis);
+    bend(pose, axis);
+    if (torque[0] != 0 || torque[1] != 0 || torque[2] != 0) {
         twist(pose, torque);
     }
 }
 
 void fr_lturtle_bend_old(FrLturtle *turtle) {
     FrLpose *pose = &turtle->pose;
-    if (pose->elasticity == 0) {
-        return;
-    }
     const double *direction = turtle->view->old_direction;
-    double sine = CLAMP(pose->elasticity * fr_lvector_dot(direction, pose->up), -1, 1);
+    double e = pose->elasticity;
+    double sine = CLAMP(e * fr_lvector_dot(direction, pose->up), -1, 1);
     fr_lturtle_turn(pose->heading, pose->up, sine, sqrt(1 - sine * sine));
-    sine = CLAMP(pose->elasticity * fr_lvector_dot(direction, pose->left), -1, 1);
+    sine = CLAMP(e * fr_lvector_dot(direction, pose->left), -1, 1);
     fr_lturtle_turn(pose->heading, pose->left, sine, sqrt(1 - sine * sine));
 }

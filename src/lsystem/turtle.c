@@ -6,15 +6,15 @@
 #include <math.h>
 
 #define MOST_BRACKETS 1000000
-#define LEAST_WIDTH 1e-7
+#define MOST_CORNERS 4000000
+#define LEAST_WIDTH 1e-7F
+#define MOST_LENGTH 1e9F
 
-/// A polygon or cylinder that is open.
-typedef struct Open {
-    uint32_t kind;  ///< 0: polygon; else FrLcylinderKind
-    uint32_t first; ///< point
-    uint32_t strips;
-    FrLpose pose;
-} Open;
+static void set_tropisms(FrLpose *pose, const FrLview *view) {
+    for (guint i = 0; i < MIN(view->tropisms->len, FR_LTROPISMS); i++) {
+        pose->elasticities[i] = g_array_index(view->tropisms, FrLtropism, i).elasticity;
+    }
+}
 
 void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuilder *builder,
                      const FrContext *context) {
@@ -22,39 +22,42 @@ void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuil
     *turtle = (FrLturtle){.view = view,
                           .context = context,
                           .builder = builder,
+                          .keeps_all = view->tropisms->len > 0 || derivation->system->has_at,
+                          .is_moved = true,
                           .status = FR_OK,
                           .has_sites = builder != NULL && builder->sites != NULL,
-                          .is_dollar_vertical = derivation->system->is_paper};
+                          .is_dollar_vertical = derivation->system->is_paper,
+                          .sine = sin(view->angle * (G_PI / 180)),
+                          .cosine = cos(view->angle * (G_PI / 180))};
     turtle->pose = (FrLpose){.heading = {0, 1, 0},
                              .left = {-1, 0, 0},
                              .up = {0, 0, -1},
                              .last_heading = {0, 1, 0},
                              .last_up = {0, 0, -1},
-                             .width = view->width,
-                             .scale = view->scale,
-                             .elasticity = view->old_elasticity,
-                             .arrive = 1.2,
-                             .leave = 1.2,
+                             .width = (float)view->width,
+                             .scale = (float)view->scale,
+                             .elasticity = (float)view->old_elasticity,
+                             .arrive = 1.2F,
+                             .leave = 1.2F,
                              .colour = view->colour,
                              .sides = view->contour_sides,
-                             .node = FR_NONE,
-                             .is_lateral = true};
-    for (guint i = 0; i < MIN(view->tropisms->len, FR_LTROPISMS); i++) {
-        turtle->pose.elasticities[i] = g_array_index(view->tropisms, FrLtropism, i).elasticity;
-    }
-    turtle->stack = g_array_new(FALSE, FALSE, sizeof(FrLpose));
-    turtle->points = g_array_new(FALSE, FALSE, sizeof(FrLpoint));
-    turtle->shapes = g_array_new(FALSE, FALSE, sizeof(Open));
-    turtle->scales = g_array_new(FALSE, FALSE, sizeof(double));
+                             .stand = {FR_NONE, false, true}};
+    set_tropisms(&turtle->pose, view);
+    turtle->corners = g_array_new(FALSE, FALSE, 3 * sizeof(double));
+    turtle->polygons = g_array_new(FALSE, FALSE, sizeof(FrLpolygon));
+    turtle->splines = g_array_new(FALSE, FALSE, sizeof(FrLtube));
+    turtle->scales = g_array_new(FALSE, FALSE, sizeof(float));
+    g_array_append_val(turtle->scales, turtle->pose.scale);
     for (size_t i = 0; i < G_N_ELEMENTS(turtle->turns); i++) {
         turtle->turns[i].cosine = 1;
     }
 }
 
 void fr_lturtle_clear(FrLturtle *turtle) {
-    g_array_unref(turtle->stack);
-    g_array_unref(turtle->points);
-    g_array_unref(turtle->shapes);
+    g_free(turtle->stack);
+    g_array_unref(turtle->corners);
+    g_array_unref(turtle->polygons);
+    g_array_unref(turtle->splines);
     g_array_unref(turtle->scales);
 }
 
@@ -80,146 +83,170 @@ void fr_lturtle_sine(FrLturtle *turtle, float degrees, double *sine, double *cos
     *cosine = turtle->turns[slot].cosine;
 }
 
-static void turn(FrLturtle *turtle, const uint32_t *module, double a[3], double b[3], int sign) {
-    double sine, cosine;
-    fr_lturtle_sine(turtle, (float)fr_lturtle_value(module, 0, turtle->view->angle), &sine,
-                    &cosine);
+static inline void turn(FrLturtle *turtle, const uint32_t *module, double a[3], double b[3],
+                        int sign) {
+    double sine = turtle->sine, cosine = turtle->cosine;
+    if (fr_lhead_count(*module) > 0) {
+        fr_lturtle_sine(turtle, fr_lword_float(module[1]), &sine, &cosine);
+    }
     fr_lturtle_turn(a, b, sign * sine, cosine);
 }
 
 // ---- moving -----------------------------------------------------------------------------------
 
-void fr_lturtle_close_segment(FrLturtle *turtle) {
-    if (!turtle->has_segment) {
-        return;
-    }
+static void close_segment(FrLturtle *turtle) {
+    FrLsegment *segment = &turtle->segment;
     turtle->has_segment = false;
-    turtle->segment.end_width =
-        turtle->view->tapers ? turtle->pose.width : turtle->segment.start_width;
+    segment->end_width = turtle->view->tapers ? turtle->pose.width : segment->start_width;
+    memcpy(segment->end, turtle->pose.position, sizeof segment->end);
     if (turtle->builder != NULL) {
-        fr_lbuilder_segment(turtle->builder, &turtle->pose, &turtle->segment);
+        fr_lbuilder_segment(turtle->builder, &turtle->pose.stand, segment);
         turtle->status = MAX(turtle->status, turtle->builder->status);
     }
 }
 
-static void add_point(FrLturtle *turtle, uint32_t strips) {
+static inline void end_node(FrLturtle *turtle) {
+    if (turtle->has_segment) {
+        close_segment(turtle);
+    }
+    if (turtle->is_moved && turtle->builder != NULL) {
+        fr_lbuilder_include(turtle->builder, turtle->pose.position);
+        turtle->is_moved = false;
+    }
+}
+
+void fr_lturtle_end_node(FrLturtle *turtle) {
+    end_node(turtle);
+}
+
+static void add_corner(FrLturtle *turtle) {
     if (turtle->builder == NULL) {
         return;
     }
-    if (turtle->points->len >= 4000000) {
-        turtle->status = fr_limit_check(turtle->points->len + UINT64_C(1), 4000000, "corners",
+    if (turtle->corners->len >= MOST_CORNERS) {
+        turtle->status = fr_limit_check(turtle->corners->len + UINT64_C(1), MOST_CORNERS, "corners",
                                         "an open polygon", (FrSpan){0}, turtle->context->diags);
         return;
     }
-    const FrLpose *pose = &turtle->pose;
-    FrLpoint point = {
-        .width = pose->width, .arrive = pose->arrive, .leave = pose->leave, .strips = strips};
-    memcpy(point.position, pose->position, sizeof point.position);
-    memcpy(point.heading, pose->heading, sizeof point.heading);
-    memcpy(point.up, pose->up, sizeof point.up);
-    g_array_append_val(turtle->points, point);
+    g_array_append_vals(turtle->corners, turtle->pose.position, 1);
 }
 
-static void move(FrLturtle *turtle, const uint32_t *module, char symbol, uint64_t origin) {
+/// Length of a move: single precision, as cpfg has it.
+static inline float length_of(const FrLpose *pose, const uint32_t *module) {
+    float length = fr_lhead_count(*module) > 0 ? fr_lword_float(module[1]) * pose->scale
+                                               : pose->scale;
+    return fabsf(length) <= MOST_LENGTH ? length : 0;
+}
+
+static inline void advance(FrLturtle *turtle, double length, bool adds_points) {
     FrLpose *pose = &turtle->pose;
-    bool draws = symbol == 'F' || symbol == 'G';
-    fr_lturtle_close_segment(turtle);
+    for (int k = 0; k < 3; k++) {
+        pose->position[k] += length * pose->heading[k];
+    }
+    turtle->is_moved = true;
+    if (pose->elasticity != 0) {
+        fr_lturtle_bend_old(turtle);
+    }
+    if (adds_points && turtle->polygons->len > 0) {
+        add_corner(turtle);
+    }
+    if (adds_points && pose->spline == 1) {
+        fr_lspline_point(turtle, 0);
+    }
+}
+
+static inline void draw(FrLturtle *turtle, const uint32_t *module, char symbol, uint64_t origin) {
+    FrLpose *pose = &turtle->pose;
     if (turtle->view->tropisms->len > 0) {
         fr_lturtle_bend(turtle);
     }
-    double length = fr_lturtle_value(module, 0, 1) * pose->scale;
+    end_node(turtle);
+    float length = length_of(pose, module);
     FrLsegment *segment = &turtle->segment;
-    if (draws) {
-        memcpy(segment->start, pose->position, sizeof segment->start);
-        memcpy(segment->heading, pose->heading, sizeof segment->heading);
-        memcpy(segment->left, pose->left, sizeof segment->left);
-        memcpy(segment->up, pose->up, sizeof segment->up);
-        segment->start_width = pose->width;
-        segment->module = origin;
-        segment->symbol = symbol;
-    }
-    memcpy(pose->last_heading, pose->heading, sizeof pose->last_heading);
-    memcpy(pose->last_up, pose->up, sizeof pose->last_up);
-    for (int k = 0; k < 3; k++) {
-        pose->position[k] += pose->heading[k] * length;
-        pose->position[k] = CLAMP(pose->position[k], -1e12, 1e12);
-    }
-    if (!isfinite(length)) {
-        length = 0;
-        memcpy(pose->position, (double[3]){0, 0, 0}, sizeof pose->position);
-    }
-    if (draws) {
-        memcpy(segment->end, pose->position, sizeof segment->end);
-        turtle->has_segment = true;
-    } else {
-        pose->is_at_tip &= length == 0;
-    }
-    fr_lturtle_bend_old(turtle);
-    if (turtle->shapes->len > 0 && (symbol == 'F' || symbol == 'f')) {
-        const Open *open = &g_array_index(turtle->shapes, Open, turtle->shapes->len - 1);
-        add_point(turtle, open->strips);
+    memcpy(segment->start, pose->position, sizeof segment->start);
+    memcpy(segment->heading, pose->heading, sizeof segment->heading);
+    memcpy(segment->left, pose->left, sizeof segment->left);
+    segment->start_width = pose->width;
+    segment->module = origin;
+    segment->is_backward = length < 0;
+    turtle->has_segment = true;
+    advance(turtle, (double)length, symbol == 'F');
+    if (turtle->keeps_all) {
+        memcpy(pose->last_heading, pose->heading, sizeof pose->last_heading);
+        memcpy(pose->last_up, pose->up, sizeof pose->last_up);
     }
 }
 
-// ---- polygons and cylinders -------------------------------------------------------------------
+static void jump(FrLturtle *turtle, const uint32_t *module, char symbol) {
+    FrLpose *pose = &turtle->pose;
+    if (turtle->view->tropisms->len > 0) {
+        fr_lturtle_bend(turtle);
+    }
+    end_node(turtle);
+    float length = length_of(pose, module);
+    pose->stand.is_at_tip &= length == 0;
+    advance(turtle, (double)length, symbol == 'f');
+}
+
+// ---- polygons ---------------------------------------------------------------------------------
 
 static void open_shape(FrLturtle *turtle, const uint32_t *module) {
-    double kind = fr_lturtle_value(module, 0, 0), strips = fr_lturtle_value(module, 1, 4);
-    fr_lturtle_close_segment(turtle);
-    if (turtle->shapes->len >= 1000) {
-        return;
-    }
-    Open open = {kind >= 1 && kind < 5 ? (uint32_t)kind : 0, turtle->points->len,
-                 strips >= 1 && strips <= 100 ? (uint32_t)strips : 1, turtle->pose};
-    g_array_append_val(turtle->shapes, open);
-    if (open.kind > 0) {
-        add_point(turtle, open.strips);
+    double kind = fr_lturtle_value(module, 0, 0);
+    end_node(turtle);
+    if (kind != 0) {
+        fr_lspline_begin(turtle, fr_lturtle_int(kind),
+                         fr_lturtle_int(fr_lturtle_value(module, 1, 0)));
+    } else if (turtle->polygons->len < 1000) {
+        FrLpolygon polygon = {turtle->pose, turtle->corners->len};
+        g_array_append_val(turtle->polygons, polygon);
     }
 }
 
-static void close_shape(FrLturtle *turtle) {
-    fr_lturtle_close_segment(turtle);
-    if (turtle->shapes->len == 0) {
+static void close_shape(FrLturtle *turtle, const uint32_t *module) {
+    if (fr_lturtle_value(module, 0, 0) != 0) {
+        fr_lspline_end(turtle);
         return;
     }
-    Open open = g_array_index(turtle->shapes, Open, turtle->shapes->len - 1);
-    g_array_set_size(turtle->shapes, turtle->shapes->len - 1);
+    if (turtle->polygons->len == 0) {
+        return;
+    }
+    end_node(turtle);
+    FrLpolygon polygon =
+        g_array_index(turtle->polygons, FrLpolygon, turtle->polygons->len - 1);
+    g_array_set_size(turtle->polygons, turtle->polygons->len - 1);
     if (turtle->builder != NULL) {
-        const FrLpoint *points = &g_array_index(turtle->points, FrLpoint, open.first);
-        uint32_t count = turtle->points->len - open.first;
-        if (open.kind == 0) {
-            fr_lbuilder_polygon(turtle->builder, &open.pose, points, count);
-        } else {
-            fr_lbuilder_cylinder(turtle->builder, &open.pose, (FrLcylinderKind)open.kind, points,
-                                 count);
-        }
+        fr_lbuilder_polygon(turtle->builder, &polygon.pose,
+                            (const double(*)[3])(void *)turtle->corners->data + polygon.first,
+                            turtle->corners->len - polygon.first);
         turtle->status = MAX(turtle->status, turtle->builder->status);
     }
-    g_array_set_size(turtle->points, open.first);
+    g_array_set_size(turtle->corners, polygon.first);
 }
 
-// The simple form: @Gs begins, @Gc adds a control point, @Ge adds the last and ends.
-void fr_lturtle_control(FrLturtle *turtle, char symbol, const uint32_t *module) {
-    FrLpose *pose = &turtle->pose;
-    double strips = fr_lturtle_value(module, 0, 4);
-    if (symbol == 's') {
-        Open open = {FR_LHERMITE_OPEN, turtle->points->len, 4, *pose};
-        if (turtle->shapes->len < 1000) {
-            g_array_append_val(turtle->shapes, open);
-            add_point(turtle, 1);
-        }
-    } else if (symbol == 'c' || symbol == 'e') {
-        add_point(turtle, strips >= 1 ? (uint32_t)MIN(strips, 100) : 1);
-        if (symbol == 'e') {
-            close_shape(turtle);
-        }
-    } else if (symbol == 't') {
-        pose->arrive = fr_lturtle_value(module, 0, 1.2);
-        pose->leave = fr_lturtle_value(module, 1, pose->arrive);
+static void add_dot(FrLturtle *turtle, const uint32_t *module) {
+    if (turtle->polygons->len > 0) {
+        add_corner(turtle);
+    } else {
+        fr_lspline_point(turtle, fr_lturtle_int(fr_lturtle_value(module, 0, 0)));
     }
 }
 
 // ---- symbols ----------------------------------------------------------------------------------
+
+/// Where the turtle goes after a surface; only the first of three scales counts.
+static void leave_surface(FrLturtle *turtle, const FrLsurface *surface, double scale) {
+    FrLpose *pose = &turtle->pose;
+    for (int k = 0; k < 3; k++) {
+        double to = pose->position[k] + surface->end[0] * scale * pose->left[k] +
+                    surface->end[1] * scale * pose->heading[k] +
+                    surface->end[2] * scale * pose->up[k];
+        pose->stand.is_at_tip &= surface->end[k] == 0;
+        pose->position[k] = surface->is_mesh ? pose->position[k]
+                            : fabs(to) < 1e12 ? (double)(float)to
+                                              : 0;
+    }
+    turtle->is_moved = true;
+}
 
 static void draw_surface(FrLturtle *turtle, char symbol, const uint32_t *module) {
     FrLpose *pose = &turtle->pose;
@@ -229,31 +256,27 @@ static void draw_surface(FrLturtle *turtle, char symbol, const uint32_t *module)
         if (surface->symbol != symbol) {
             continue;
         }
-        double first = fr_lturtle_value(module, 0, 1), scale[3];
+        double scale[3];
         bool is_three = fr_lhead_count(*module) >= 3;
         for (unsigned k = 0; k < 3; k++) {
-            scale[k] = (is_three ? fr_lturtle_value(module, k, 1) : first) * pose->scale;
+            float value = (float)fr_lturtle_value(module, is_three ? k : 0, 1) * pose->scale;
+            scale[k] = (double)value;
         }
         if (turtle->builder != NULL) {
             fr_lbuilder_surface(turtle->builder, pose, surface, scale);
             turtle->status = MAX(turtle->status, turtle->builder->status);
         }
-        for (int k = 0; k < 3; k++) {
-            pose->position[k] += surface->end[0] * scale[0] * pose->left[k] +
-                                 surface->end[1] * scale[1] * pose->heading[k] +
-                                 surface->end[2] * scale[2] * pose->up[k];
-            pose->is_at_tip &= surface->end[k] == 0;
-        }
+        leave_surface(turtle, surface, scale[0]);
         return;
     }
 }
 
 static void change_width(FrLturtle *turtle, const uint32_t *module, int sign) {
     FrLpose *pose = &turtle->pose;
-    double width = fr_lhead_count(*module) > 0
-                       ? fr_lturtle_value(module, 0, 1) * pose->scale
-                       : pose->width + sign * turtle->view->width_step * pose->scale;
-    pose->width = isfinite(width) ? CLAMP(width, LEAST_WIDTH, 1e9) : LEAST_WIDTH;
+    float width = fr_lhead_count(*module) > 0
+                      ? fr_lword_float(module[1]) * pose->scale
+                      : pose->width + (float)sign * (float)turtle->view->width_step * pose->scale;
+    pose->width = width > LEAST_WIDTH ? MIN(width, MOST_LENGTH) : LEAST_WIDTH;
 }
 
 static void change_colour(FrLturtle *turtle, const uint32_t *module, int sign) {
@@ -262,46 +285,68 @@ static void change_colour(FrLturtle *turtle, const uint32_t *module, int sign) {
     turtle->pose.colour = isfinite(colour) ? (int32_t)CLAMP(colour, -1e6, 1e6) & 255 : 0;
 }
 
-static void push(FrLturtle *turtle) {
-    fr_lturtle_close_segment(turtle);
-    if (turtle->stack->len >= MOST_BRACKETS) {
-        turtle->status = fr_limit_check(MOST_BRACKETS + UINT64_C(1), MOST_BRACKETS, "brackets",
-                                        "the string", (FrSpan){0}, turtle->context->diags);
-        return;
+static inline void copy_pose(FrLpose *to, const FrLpose *from, bool keeps_all) {
+    if (keeps_all) {
+        *to = *from;
+    } else {
+        memcpy(to, from, offsetof(FrLpose, last_heading));
     }
-    g_array_append_val(turtle->stack, turtle->pose);
-    turtle->pose.is_lateral = true;
+}
+
+static void push(FrLturtle *turtle) {
+    end_node(turtle);
+    if (turtle->depth == turtle->capacity) {
+        if (turtle->depth >= MOST_BRACKETS) {
+            turtle->status = fr_limit_check(MOST_BRACKETS + UINT64_C(1), MOST_BRACKETS, "brackets",
+                                            "the string", (FrSpan){0}, turtle->context->diags);
+            return;
+        }
+        turtle->capacity = MAX(64, 2 * turtle->capacity);
+        turtle->stack = g_renew(FrLpose, turtle->stack, turtle->capacity);
+    }
+    copy_pose(&turtle->stack[turtle->depth++], &turtle->pose, turtle->keeps_all);
+    if (turtle->pose.spline != 0) {
+        fr_lspline_push(turtle);
+    }
+    turtle->pose.stand.is_lateral = true;
 }
 
 static void pop(FrLturtle *turtle) {
-    fr_lturtle_close_segment(turtle);
-    if (turtle->stack->len > 0) {
-        turtle->pose = g_array_index(turtle->stack, FrLpose, turtle->stack->len - 1);
-        g_array_set_size(turtle->stack, turtle->stack->len - 1);
+    end_node(turtle);
+    if (turtle->depth > 0) {
+        bool is_open = turtle->pose.spline != 0;
+        copy_pose(&turtle->pose, &turtle->stack[--turtle->depth], turtle->keeps_all);
+        if (is_open) {
+            fr_lspline_pop(turtle);
+        }
     }
 }
 
+/// Takes a scale from the stack of called L-systems for the turtle's, and adjusts the width.
+static void use_scale(FrLturtle *turtle, float before) {
+    FrLpose *pose = &turtle->pose;
+    pose->scale = g_array_index(turtle->scales, float, turtle->scales->len - 1);
+    float width = pose->width * pose->scale / before;
+    pose->width = fabsf(width) < MOST_LENGTH ? width : 1;
+}
+
 static void enter_call(FrLturtle *turtle, const uint32_t *module) {
-    double scale = fr_lturtle_value(module, 1, 1);
-    scale = isfinite(scale) && scale != 0 ? scale : 1;
-    if (turtle->scales->len < 100) {
+    float before = g_array_index(turtle->scales, float, turtle->scales->len - 1);
+    float scale = before * (float)fr_lturtle_value(module, 1, 1);
+    if (turtle->scales->len <= 100 && isfinite(scale) && scale != 0) {
         g_array_append_val(turtle->scales, scale);
-        turtle->pose.scale *= scale;
-        turtle->pose.width *= scale;
+        use_scale(turtle, before);
     }
 }
 
 static void end_call(FrLturtle *turtle) {
-    if (turtle->scales->len == 0) {
-        if (turtle->is_dollar_vertical) {
-            fr_lturtle_level(&turtle->pose);
-        }
-        return;
+    if (turtle->scales->len > 1) {
+        float before = g_array_index(turtle->scales, float, turtle->scales->len - 1);
+        g_array_set_size(turtle->scales, turtle->scales->len - 1);
+        use_scale(turtle, before);
+    } else if (turtle->is_dollar_vertical) {
+        fr_lturtle_level(&turtle->pose);
     }
-    double scale = g_array_index(turtle->scales, double, turtle->scales->len - 1);
-    g_array_set_size(turtle->scales, turtle->scales->len - 1);
-    turtle->pose.scale /= scale;
-    turtle->pose.width /= scale;
 }
 
 /// Symbols that neither move, turn nor branch.
@@ -311,17 +356,10 @@ static void obey_other(FrLturtle *turtle, char symbol, const uint32_t *module) {
         open_shape(turtle, module);
         break;
     case '}':
-        close_shape(turtle);
+        close_shape(turtle, module);
         break;
     case '.':
-        if (turtle->shapes->len > 0) {
-            double strips = fr_lturtle_value(module, 0, 4);
-            add_point(turtle, strips >= 1 ? (uint32_t)MIN(strips, 100) : 1);
-        }
-        break;
-    case '#':
-    case '!':
-        change_width(turtle, module, symbol == '#' ? 1 : -1);
+        add_dot(turtle, module);
         break;
     case ';':
     case ',':
@@ -329,8 +367,10 @@ static void obey_other(FrLturtle *turtle, char symbol, const uint32_t *module) {
         break;
     case '_':
         turtle->pose.elasticity = fr_lhead_count(*module) > 0
-                                      ? fr_lturtle_value(module, 0, 0)
-                                      : turtle->pose.elasticity + turtle->view->old_step;
+                                      ? fr_lword_float(module[1])
+                                      : turtle->pose.elasticity + (float)turtle->view->old_step;
+        turtle->pose.elasticity =
+            isfinite(turtle->pose.elasticity) ? turtle->pose.elasticity : 0;
         break;
     case '$':
         end_call(turtle);
@@ -342,7 +382,7 @@ static void obey_other(FrLturtle *turtle, char symbol, const uint32_t *module) {
         break;
     case '~':
     case '@':
-        fr_lturtle_close_segment(turtle);
+        end_node(turtle);
         turtle->prefix = symbol;
         break;
     case '?':
@@ -362,24 +402,26 @@ static bool place(FrLturtle *turtle, char symbol, const uint32_t *module) {
     if (strchr(turtle->builder->sites, symbol) == NULL) {
         return false;
     }
-    fr_lturtle_close_segment(turtle);
+    end_node(turtle);
     fr_lbuilder_site(turtle->builder, &turtle->pose, symbol,
-                     fr_lturtle_value(module, 0, 1) * turtle->pose.scale);
+                     fr_lturtle_value(module, 0, 1) * (double)turtle->pose.scale);
     turtle->status = MAX(turtle->status, turtle->builder->status);
     return true;
 }
 
-static void obey(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_t origin) {
+static inline void obey(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_t origin) {
     FrLpose *pose = &turtle->pose;
     if (turtle->has_sites && place(turtle, symbol, module)) {
         return;
     }
     switch (symbol) {
     case 'F':
-    case 'f':
     case 'G':
+        draw(turtle, module, symbol, origin);
+        break;
+    case 'f':
     case 'g':
-        move(turtle, module, symbol, origin);
+        jump(turtle, module, symbol);
         break;
     case '+':
         turn(turtle, module, pose->heading, pose->left, 1);
@@ -405,6 +447,10 @@ static void obey(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_
             pose->left[k] = -pose->left[k];
         }
         break;
+    case '#':
+    case '!':
+        change_width(turtle, module, symbol == '#' ? 1 : -1);
+        break;
     case '[':
         push(turtle);
         break;
@@ -416,21 +462,23 @@ static void obey(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_
     }
 }
 
-bool fr_lturtle_take(FrLturtle *turtle, const uint32_t *module, uint64_t origin) {
-    char symbol = (char)fr_lhead_symbol(*module);
-    turtle->modules++;
+/// Obeys what follows a prefix, and counts brackets behind a cut.
+static void obey_rest(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_t origin) {
     if (turtle->skip > 0) {
         // Behind a cut only brackets count, up to the one that closes the branch.
         turtle->skip += symbol == '[';
         turtle->skip -= symbol == ']';
+        turtle->skip = symbol == '$' && turtle->skip == 1 ? 0 : turtle->skip;
         if (turtle->skip > 0) {
-            return true;
+            return;
         }
     }
     if (turtle->qualifier != 0) {
         fr_lturtle_qualified(turtle, symbol, module);
     } else if (turtle->prefix == '@') {
-        fr_lturtle_at(turtle, symbol, module);
+        if (!fr_lturtle_at(turtle, symbol, module)) {
+            obey(turtle, symbol, module, origin);
+        }
     } else if (turtle->prefix == '~') {
         turtle->prefix = 0;
         draw_surface(turtle, symbol, module);
@@ -439,6 +487,33 @@ bool fr_lturtle_take(FrLturtle *turtle, const uint32_t *module, uint64_t origin)
     } else {
         obey(turtle, symbol, module, origin);
     }
+}
+
+static inline void take(FrLturtle *turtle, const uint32_t *module, uint64_t origin) {
+    char symbol = (char)fr_lhead_symbol(*module);
+    if (turtle->skip == 0 && !turtle->is_raw) {
+        obey(turtle, symbol, module, origin);
+    } else {
+        obey_rest(turtle, symbol, module, origin);
+    }
     turtle->is_raw = turtle->prefix != 0 || turtle->qualifier != 0;
+}
+
+bool fr_lturtle_take(FrLturtle *turtle, const uint32_t *module, uint64_t origin) {
+    turtle->modules++;
+    take(turtle, module, origin);
     return turtle->status == FR_OK;
+}
+
+void fr_lturtle_read(FrLturtle *turtle, const FrLstring *string) {
+    uint64_t origin = 0;
+    for (uint64_t at = 0; at < string->count && turtle->status == FR_OK; origin++) {
+        const uint32_t *module = string->words + at;
+        take(turtle, module, origin);
+        at += 1 + fr_lhead_count(*module);
+        if ((origin & 0xFFFF) == 0 && fr_progress_is_cancelled(turtle->context->progress)) {
+            turtle->status = FR_CANCELLED;
+        }
+    }
+    turtle->modules += origin;
 }

@@ -7,37 +7,61 @@
 
 #include "lsystem/derive.h"
 
-#define FR_LTROPISMS 8
+#define FR_LTROPISMS 10
 
-typedef struct FrLpose {
-    double position[3], heading[3], left[3], up[3];
-    double last_heading[3], last_up[3]; ///< of the segment before
-    double width, scale;
-    double elasticity;                 ///< of the old tropism
-    double elasticities[FR_LTROPISMS]; ///< of the others
-    double arrive, leave;              ///< tangent factors of generalized cylinders
-    int32_t colour;
-    int32_t contour;
-    uint32_t sides;
-    uint32_t node;   ///< of the plant that it stands on, FR_NONE
+/// Where in the plant something begins.
+typedef struct FrLstand {
+    uint32_t node;   ///< FR_NONE: on the ground
     bool is_at_tip;  ///< no jump since that node ended
     bool is_lateral; ///< the next segment begins an axis
+} FrLstand;
+
+/// The turtle's state, in the precision of cpfg. What comes behind `last_heading` is only kept
+/// over brackets where the string may change it.
+typedef struct FrLpose {
+    double position[3], heading[3], left[3], up[3];
+    float width, scale;
+    float elasticity; ///< of the old tropism
+    int32_t colour;
+    FrLstand stand;
+    uint8_t spline; ///< 1: F and f add control points, 2: only @Gc and @Ge do, 0: there is none
+    double last_heading[3], last_up[3]; ///< of the segment before
+    double elasticities[FR_LTROPISMS];
+    float arrive, leave;         ///< tangent factors of generalized cylinders
+    float radius_tangents[2][2]; ///< before and behind a control point; 0: straight
+    bool scales_tangents;        ///< the latter are per length of the span
+    int32_t contour;
+    uint32_t sides;
 } FrLpose;
 
 /// What a segment is drawn with.
 typedef struct FrLsegment {
-    double start[3], end[3], heading[3], left[3], up[3];
-    double start_width, end_width;
+    double start[3], end[3], heading[3], left[3];
+    float start_width, end_width;
     uint64_t module;
-    char symbol;
+    bool is_backward; ///< its length was negative
 } FrLsegment;
 
-/// A corner of a polygon or a control point of a generalized cylinder.
+/// A control point of a generalized cylinder.
 typedef struct FrLpoint {
-    double position[3], heading[3], up[3];
-    double width, arrive, leave;
-    uint32_t strips;
+    double position[3], heading[3], left[3], up[3];
+    float width, arrive, leave;
+    float radius_tangents[2][2];
+    bool scales_tangents;
+    int32_t contour;
+    uint32_t sides;
 } FrLpoint;
+
+/// A generalized cylinder that is open. Brackets continue a copy of it.
+typedef struct FrLtube {
+    bool is_closed, is_b_spline;
+    uint32_t count;     ///< control points so far
+    uint32_t strips;    ///< of a span, unless a point says otherwise
+    FrLpoint last;      ///< where the curve has come to
+    FrLpoint recent[3]; ///< last control points of a B-spline
+    FrLpoint first[3];  ///< of a closed one
+    FrLstand stand;
+} FrLtube;
 
 typedef struct FrLbuilder FrLbuilder;
 
@@ -46,40 +70,50 @@ typedef struct FrLturtle {
     const FrContext *context;
     FrLbuilder *builder; ///< NULL: only moves
     FrLpose pose;
-    GArray *stack;      ///< FrLpose
-    FrLsegment segment; ///< begun, to be drawn when its end width is known
+    FrLpose *stack;
+    uint32_t depth, capacity; ///< of the stack
+    bool keeps_all;           ///< brackets keep all of a pose
+    FrLsegment segment;       ///< begun, to be drawn when its end width is known
     bool has_segment;
+    bool is_moved;           ///< its position has not been counted into the bounding box
     bool is_raw;             ///< the next module belongs to the one before
     char prefix;             ///< '~', '@' or '?' before, else 0
     char qualifier;          ///< second letter of @T, @G, @D, @b, @P before, else 0
     uint32_t skip;           ///< > 0: behind a cut, brackets deep
-    GArray *points;          ///< FrLpoint: corners and control points that are open
-    GArray *shapes;          ///< Open: polygons and cylinders that are open
-    GArray *scales;          ///< double: of called L-systems
+    GArray *corners;         ///< double[3]: of the polygons that are open
+    GArray *polygons;        ///< FrLpolygon: open, the innermost last
+    GArray *splines;         ///< FrLtube: open, one a bracket
+    GArray *scales;          ///< float: of called L-systems, around and within
     bool is_dollar_vertical; ///< `$` turns as in The Algorithmic Beauty of Plants
-    bool is_cylinder;        ///< @Gs was met
     bool has_sites;          ///< some symbols place something
     uint64_t modules;
     FrStatus status;
+    double sine, cosine; ///< of the angle increment
     struct {
         float angle;
         double sine, cosine;
     } turns[16]; ///< angles met lately
 } FrLturtle;
 
+/// A polygon that is open: where it began.
+typedef struct FrLpolygon {
+    FrLpose pose;
+    uint32_t first; ///< corner
+} FrLpolygon;
+
 void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuilder *builder,
                      const FrContext *context);
 void fr_lturtle_clear(FrLturtle *turtle);
 /// Obeys one module; false where it must stop.
 bool fr_lturtle_take(FrLturtle *turtle, const uint32_t *module, uint64_t origin);
-/// Draws the segment that is begun.
-void fr_lturtle_close_segment(FrLturtle *turtle);
-/// `@` and what follows.
-void fr_lturtle_at(FrLturtle *turtle, char symbol, const uint32_t *module);
+/// Obeys the modules of a string that has no homomorphism.
+void fr_lturtle_read(FrLturtle *turtle, const FrLstring *string);
+/// Ends the segment that is begun and counts the place into the bounding box.
+void fr_lturtle_end_node(FrLturtle *turtle);
+/// `@` and what follows; false where the symbol means nothing there and is obeyed by itself.
+bool fr_lturtle_at(FrLturtle *turtle, char symbol, const uint32_t *module);
 /// The third letter of @Gs, @Ts, @Di, @bo and the like.
 void fr_lturtle_qualified(FrLturtle *turtle, char symbol, const uint32_t *module);
-/// Control points of a generalized cylinder: @Gs, @Gc, @Ge, @Gt.
-void fr_lturtle_control(FrLturtle *turtle, char symbol, const uint32_t *module);
 /// Rolls until left is horizontal.
 void fr_lturtle_level(FrLpose *pose);
 /// The k-th parameter, or a default.
@@ -90,6 +124,10 @@ static inline double fr_lturtle_value(const uint32_t *module, unsigned k, double
 void fr_lturtle_turn(double a[3], double b[3], double sine, double cosine);
 /// Sine and cosine of an angle in degrees, remembered.
 void fr_lturtle_sine(FrLturtle *turtle, float degrees, double *sine, double *cosine);
+/// A number as an int, as C converts it where that is defined.
+static inline int fr_lturtle_int(double value) {
+    return value > -2e9 && value < 2e9 ? (int)value : 0;
+}
 /// From the file's coordinates to the plant's.
 static inline vec3s fr_lturtle_world(const double v[3]) {
     return (vec3s){{(float)v[0], (float)-v[2], (float)v[1]}};
@@ -103,8 +141,24 @@ void fr_lturtle_bend(FrLturtle *turtle);
 void fr_lturtle_bend_old(FrLturtle *turtle);
 /// Left and up by the least twist from the segment before.
 void fr_lturtle_untwist(FrLpose *pose);
+/// Up of `point` by the least twist from `before`, then rolled by `roll` radians; left after it.
+void fr_lpoint_untwist(FrLpoint *point, const FrLpoint *before, double roll);
 void fr_lvector_unit(double v[3]);
 void fr_lvector_cross(const double a[3], const double b[3], double out[3]);
 double fr_lvector_dot(const double a[3], const double b[3]);
 /// Turns v about the unit axis.
 void fr_lvector_rotate(double v[3], const double axis[3], double sine, double cosine);
+
+// ---- spline.c ---------------------------------------------------------------------------------
+
+/// Begins a generalized cylinder of kind 1 … 4 (`{(kind,strips)`), strips 0: 4.
+void fr_lspline_begin(FrLturtle *turtle, int kind, int strips);
+/// Adds the turtle's place as a control point; strips 0: as many as the cylinder has.
+void fr_lspline_point(FrLturtle *turtle, int strips);
+void fr_lspline_end(FrLturtle *turtle);
+/// @Gs, @Gc, @Ge, @Gt, @Gr.
+void fr_lspline_obey(FrLturtle *turtle, char symbol, const uint32_t *module);
+/// A bracket opens: its cylinder is a copy of the one around it.
+void fr_lspline_push(FrLturtle *turtle);
+/// A bracket closes with its cylinder open, which is given up.
+void fr_lspline_pop(FrLturtle *turtle);

@@ -27,15 +27,31 @@ static void set_heading(FrLpose *pose, const uint32_t *module) {
         memcpy(heading, (double[3]){0, 1, 0}, sizeof heading);
     }
     fr_lvector_unit(heading);
-    fr_lvector_unit(up);
     memcpy(pose->heading, heading, sizeof heading);
-    if (fr_lhead_count(*module) >= 6 && fabs(fr_lvector_dot(heading, up)) < 1e-6 &&
-        fr_lvector_dot(up, up) > 0.5) {
+    // Only an up that is exactly perpendicular is taken.
+    bool is_up = fr_lhead_count(*module) >= 6 && isfinite(fr_lvector_dot(up, up)) &&
+                 fr_lvector_dot(up, up) > 0 && fr_lvector_dot(up, heading) == 0;
+    if (is_up) {
+        fr_lvector_unit(up);
         memcpy(pose->up, up, sizeof up);
         fr_lvector_cross(pose->heading, pose->up, pose->left);
     } else {
         fr_lturtle_untwist(pose);
     }
+}
+
+static void set_position(FrLturtle *turtle, const uint32_t *module) {
+    FrLpose *pose = &turtle->pose;
+    if (fr_lhead_count(*module) < 2) {
+        return;
+    }
+    for (unsigned k = 0; k < 3; k++) {
+        double value = fr_lturtle_value(module, k, 0);
+        pose->position[k] = isfinite(value) ? CLAMP(value, -1e12, 1e12) : 0;
+    }
+    pose->stand.is_at_tip = false;
+    turtle->is_moved = true;
+    fr_lturtle_end_node(turtle);
 }
 
 static void set_elasticity(FrLturtle *turtle, char symbol, const uint32_t *module) {
@@ -49,8 +65,8 @@ static void set_elasticity(FrLturtle *turtle, char symbol, const uint32_t *modul
         memcpy(pose->last_up, pose->up, sizeof pose->last_up);
         return;
     }
-    double id = fr_lturtle_value(module, 0, 1);
-    if (!(id >= 1 && id <= MIN(turtle->view->tropisms->len, FR_LTROPISMS))) {
+    double id = fr_lturtle_value(module, 0, 0);
+    if (strchr("isd", symbol) == NULL || !(id >= 1 && id <= MIN(turtle->view->tropisms->len, FR_LTROPISMS))) {
         return;
     }
     unsigned i = (unsigned)id - 1;
@@ -62,10 +78,10 @@ static void set_elasticity(FrLturtle *turtle, char symbol, const uint32_t *modul
 }
 
 static void set_scale(FrLturtle *turtle, char symbol, const uint32_t *module) {
-    double value = fr_lturtle_value(module, 0, turtle->view->scale_step);
-    double scale = symbol == 'i'   ? turtle->pose.scale * value
-                   : symbol == 'd' ? turtle->pose.scale / value
-                                   : value;
+    float value = (float)fr_lturtle_value(module, 0, turtle->view->scale_step);
+    float scale = symbol == 'i'   ? turtle->pose.scale * value
+                  : symbol == 'd' ? turtle->pose.scale / value
+                                  : value;
     if (isfinite(scale) && scale != 0) {
         turtle->pose.scale = scale;
     }
@@ -74,14 +90,14 @@ static void set_scale(FrLturtle *turtle, char symbol, const uint32_t *module) {
 static void draw_ball(FrLturtle *turtle, char symbol, const uint32_t *module) {
     const FrLpose *pose = &turtle->pose;
     bool is_given = fr_lhead_count(*module) > 0;
-    double diameter = is_given ? fr_lturtle_value(module, 0, 1) * pose->scale : pose->width;
+    float diameter = is_given ? fr_lword_float(module[1]) * pose->scale : pose->width;
     if (turtle->builder == NULL) {
         return;
     }
     if (symbol == 'O') {
-        fr_lbuilder_sphere(turtle->builder, pose, diameter);
+        fr_lbuilder_sphere(turtle->builder, pose, (double)diameter);
     } else {
-        fr_lbuilder_disc(turtle->builder, pose, diameter);
+        fr_lbuilder_disc(turtle->builder, pose, (double)diameter, symbol == 'o');
     }
     turtle->status = MAX(turtle->status, turtle->builder->status);
 }
@@ -96,7 +112,7 @@ void fr_lturtle_qualified(FrLturtle *turtle, char symbol, const uint32_t *module
     turtle->qualifier = 0;
     turtle->prefix = 0;
     if (qualifier == 'G') {
-        fr_lturtle_control(turtle, symbol, module);
+        fr_lspline_obey(turtle, symbol, module);
     } else if (qualifier == 'T') {
         set_elasticity(turtle, symbol, module);
     } else if (qualifier == 'D') {
@@ -106,46 +122,52 @@ void fr_lturtle_qualified(FrLturtle *turtle, char symbol, const uint32_t *module
     }
 }
 
-void fr_lturtle_at(FrLturtle *turtle, char symbol, const uint32_t *module) {
+/// Sets contour and sides of generalized cylinders.
+static void set_contour(FrLpose *pose, char symbol, const uint32_t *module) {
+    if (symbol == '#') {
+        pose->contour = fr_lturtle_int(fr_lturtle_value(module, 0, 0));
+    } else {
+        pose->sides = (uint32_t)CLAMP(fr_lturtle_value(module, 0, 8), 3, 128);
+    }
+}
+
+bool fr_lturtle_at(FrLturtle *turtle, char symbol, const uint32_t *module) {
     FrLpose *pose = &turtle->pose;
     bool has_value = fr_lhead_count(*module) > 0;
     if (takes_another(symbol) && !has_value) {
         turtle->qualifier = symbol;
-        return;
+        return true;
     }
     turtle->prefix = 0;
     switch (symbol) {
     case 'v':
         fr_lturtle_level(pose);
-        break;
+        return true;
     case 'R':
-        set_heading(pose, module);
-        break;
-    case 'M':
-        for (unsigned k = 0; k < 3; k++) {
-            double value = fr_lturtle_value(module, k, 0);
-            pose->position[k] = isfinite(value) ? CLAMP(value, -1e12, 1e12) : 0;
+        if (fr_lhead_count(*module) >= 2) {
+            set_heading(pose, module);
         }
-        pose->is_at_tip = false;
-        break;
+        return true;
+    case 'M':
+        set_position(turtle, module);
+        return true;
     case 'D':
         set_scale(turtle, 's', module);
-        break;
+        return true;
     case 'T':
         set_elasticity(turtle, 'i', module);
-        break;
+        return true;
     case '#':
-        pose->contour = (int32_t)CLAMP(fr_lturtle_value(module, 0, 0), 0, 1e6);
-        break;
     case '!':
-        pose->sides = (uint32_t)CLAMP(fr_lturtle_value(module, 0, 8), 3, 128);
-        break;
+        set_contour(pose, symbol, module);
+        return true;
     case 'O':
     case 'o':
     case 'c':
         draw_ball(turtle, symbol, module);
-        break;
+        return true;
     default:
-        break;
+        // Read but without effect: colours of the back, labels, objects of renderers.
+        return strchr(",;LSIJbPm", symbol) != NULL;
     }
 }

@@ -40,6 +40,7 @@ void fr_lview_free(FrLview *view) {
     }
     for (guint i = 0; i < view->surfaces->len; i++) {
         g_free(g_array_index(view->surfaces, FrLsurface, i).corners);
+        g_free(g_array_index(view->surfaces, FrLsurface, i).hull);
     }
     g_array_unref(view->tropisms);
     g_array_unref(view->functions);

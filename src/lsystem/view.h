@@ -38,6 +38,9 @@ typedef struct FrLsurface {
     float (*corners)[3]; ///< three a triangle
     uint32_t count;      ///< of corners
     double end[3];       ///< where the turtle goes
+    bool is_mesh;        ///< given as triangles; the turtle stays where it is
+    double (*hull)[3];   ///< control points, which bound it
+    uint32_t hull_count;
 } FrLsurface;
 
 struct FrLview {
