@@ -217,6 +217,8 @@ FR_API FrPlant *fr_plant_copy(const FrPlant *plant);
 // columns, identity rotations, scale, flatness 1, zero elsewhere. The caller has checked FrLimits.
 
 FR_API uint32_t fr_plant_append_nodes(FrPlant *plant, uint32_t count);
+/// Room for so many nodes and axes in all; appending them then moves nothing.
+FR_API void fr_plant_reserve(FrPlant *plant, uint32_t nodes, uint32_t axes);
 FR_API uint32_t fr_plant_append_axes(FrPlant *plant, uint32_t count);
 FR_API uint32_t fr_plant_append_organs(FrPlant *plant, uint32_t count);
 FR_API uint32_t fr_plant_append_buds(FrPlant *plant, uint32_t count);

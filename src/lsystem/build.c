@@ -133,6 +133,60 @@ static versors conjugate(versors q) {
     return (versors){{-q.x, -q.y, -q.z, q.w}};
 }
 
+// ---- room -------------------------------------------------------------------------------------
+
+#define CHAINS 8
+
+/// Symbols in a part of a string.
+typedef struct Count {
+    uint64_t segments, brackets;
+} Count;
+
+/// Counts eight parts abreast: where a module begins is known only after the one before it, so one
+/// part alone would mostly wait.
+static Count count_abreast(const uint32_t *words, const uint64_t begin[CHAINS],
+                           const uint64_t end[CHAINS]) {
+    Count count = {0, 0};
+    uint64_t at[CHAINS];
+    memcpy(at, begin, sizeof at);
+    for (bool goes_on = true; goes_on;) {
+        goes_on = false;
+        for (int c = 0; c < CHAINS; c++) {
+            if (at[c] < end[c]) {
+                uint32_t head = words[at[c]];
+                unsigned symbol = fr_lhead_symbol(head);
+                count.segments += symbol == 'F' || symbol == 'G';
+                count.brackets += symbol == '[';
+                at[c] += 1 + fr_lhead_count(head);
+                goes_on = true;
+            }
+        }
+    }
+    return count;
+}
+
+void fr_lbuilder_reserve(FrLbuilder *builder, const FrLstring *string) {
+    const GArray *marks = string->marks;
+    Count count = {0, 0};
+    for (guint i = 0; i < marks->len; i += CHAINS) {
+        uint64_t begin[CHAINS], end[CHAINS];
+        for (guint c = 0; c < CHAINS; c++) {
+            bool is_there = i + c < marks->len, is_last = i + c + 1 >= marks->len;
+            begin[c] = is_there ? g_array_index(marks, FrLmark, i + c).word : string->count;
+            end[c] = is_last ? string->count : g_array_index(marks, FrLmark, i + c + 1).word;
+        }
+        Count part = count_abreast(string->words, begin, end);
+        count.segments += part.segments;
+        count.brackets += part.brackets;
+    }
+    uint64_t most = MIN(builder->context->limits.nodes, UINT32_MAX / 2);
+    uint64_t nodes = MIN(count.segments, most);
+    if (nodes > BLOCK) {
+        fr_plant_reserve(builder->plant, (uint32_t)nodes + BLOCK,
+                         (uint32_t)MIN(count.brackets + 1, nodes) + BLOCK);
+    }
+}
+
 // ---- while the turtle walks -------------------------------------------------------------------
 
 /// Room for one more node; false after a failure.
@@ -194,8 +248,7 @@ void fr_lbuilder_count(FrLbuilder *builder, const FrLsegment *segment) {
 
 void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment) {
     double square = square_of(segment);
-    if (!(square > 0) ||
-        (builder->nodes == builder->plant->nodes.count && !grow_nodes(builder))) {
+    if (!(square > 0) || (builder->nodes == builder->plant->nodes.count && !grow_nodes(builder))) {
         return;
     }
     FrNodes *nodes = &builder->plant->nodes;
@@ -300,8 +353,7 @@ static void settle(FrPlant *plant) {
     for (uint32_t i = 0; i < axes->count; i++) {
         vec3s *offset = &axes->offset[i];
         if (axes->bearer[i] != FR_NONE && (offset->x != 0 || offset->y != 0 || offset->z != 0)) {
-            *offset =
-                glms_quat_rotatev(conjugate(plant->nodes.frame[axes->bearer[i]]), *offset);
+            *offset = glms_quat_rotatev(conjugate(plant->nodes.frame[axes->bearer[i]]), *offset);
         }
     }
     for (uint32_t i = 0; i < organs->count; i++) {

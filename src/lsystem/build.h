@@ -18,6 +18,8 @@ struct FrLbuilder {
 };
 
 FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *context);
+/// Room for what the symbols of a string draw, if nothing replaces them.
+void fr_lbuilder_reserve(FrLbuilder *builder, const FrLstring *string);
 /// Ends the plant: what was kept in the plant's coordinates becomes relative to its bearers.
 FrPlant *fr_lbuilder_end(FrLbuilder *builder);
 void fr_lbuilder_free(FrLbuilder *builder);
@@ -49,8 +51,7 @@ void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at
 void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const double (*points)[3],
                          uint32_t count);
 void fr_lbuilder_sphere(FrLbuilder *builder, const FrLpose *pose, double diameter);
-void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter,
-                      bool faces_viewer);
+void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter, bool faces_viewer);
 /// Draws a surface of the view, scaled along left, heading and up.
 void fr_lbuilder_surface(FrLbuilder *builder, const FrLpose *pose, const FrLsurface *surface,
                          const double scale[3]);

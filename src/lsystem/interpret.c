@@ -298,6 +298,7 @@ FrStatus fr_lderivation_plant(FrLderivation *derivation, const FrContext *contex
     if (has_homomorphism(derivation->system)) {
         status = fr_lderive_interpret(derivation, take_module, &turtle.is_raw, &turtle, context);
     } else {
+        fr_lbuilder_reserve(builder, derivation->string);
         fr_lturtle_read(&turtle, derivation->string);
     }
     fr_lturtle_end_node(&turtle);

@@ -195,8 +195,8 @@ static void include_surface(FrLbuilder *builder, const FrLpose *pose, const FrLs
     for (uint32_t i = 0; i < count; i++) {
         double at[3], p[3];
         for (int k = 0; k < 3; k++) {
-            p[k] = scale[k] * (surface->is_mesh ? (double)surface->corners[i][k]
-                                                : surface->hull[i][k]);
+            p[k] = scale[k] *
+                   (surface->is_mesh ? (double)surface->corners[i][k] : surface->hull[i][k]);
         }
         for (int k = 0; k < 3; k++) {
             at[k] = p[0] * pose->left[k] + p[1] * pose->heading[k] + p[2] * pose->up[k] +
@@ -262,10 +262,8 @@ static void add_primitive(FrLbuilder *builder, const FrLpose *pose, double diame
 
 /// Counts a box about the turtle into the bounding box, `depth` in z.
 static void include_around(FrLbuilder *builder, const double at[3], double radius, double depth) {
-    fr_lbuilder_include(builder,
-                        (double[3]){at[0] - radius, at[1] - radius, at[2] - depth});
-    fr_lbuilder_include(builder,
-                        (double[3]){at[0] + radius, at[1] + radius, at[2] + depth});
+    fr_lbuilder_include(builder, (double[3]){at[0] - radius, at[1] - radius, at[2] - depth});
+    fr_lbuilder_include(builder, (double[3]){at[0] + radius, at[1] + radius, at[2] + depth});
 }
 
 void fr_lbuilder_sphere(FrLbuilder *builder, const FrLpose *pose, double diameter) {

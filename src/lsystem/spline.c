@@ -19,9 +19,9 @@ void fr_lspline_begin(FrLturtle *turtle, int kind, int strips) {
         return;
     }
     FrLtube spline = {.is_closed = kind % 2 == 0,
-                        .is_b_spline = kind > 2,
-                        .strips = strips > 0 ? (uint32_t)MIN(strips, MOST_STRIPS) : 4,
-                        .stand = turtle->pose.stand};
+                      .is_b_spline = kind > 2,
+                      .strips = strips > 0 ? (uint32_t)MIN(strips, MOST_STRIPS) : 4,
+                      .stand = turtle->pose.stand};
     spline.stand.is_at_tip = false; // the curve may begin beside the node
     spline.stand.is_lateral = true;
     if (turtle->pose.spline != 0) {

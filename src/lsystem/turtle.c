@@ -133,8 +133,8 @@ static void add_corner(FrLturtle *turtle) {
 
 /// Length of a move: single precision, as cpfg has it.
 static inline float length_of(const FrLpose *pose, const uint32_t *module) {
-    float length = fr_lhead_count(*module) > 0 ? fr_lword_float(module[1]) * pose->scale
-                                               : pose->scale;
+    float length =
+        fr_lhead_count(*module) > 0 ? fr_lword_float(module[1]) * pose->scale : pose->scale;
     return fabsf(length) <= MOST_LENGTH ? length : 0;
 }
 
@@ -211,8 +211,7 @@ static void close_shape(FrLturtle *turtle, const uint32_t *module) {
         return;
     }
     end_node(turtle);
-    FrLpolygon polygon =
-        g_array_index(turtle->polygons, FrLpolygon, turtle->polygons->len - 1);
+    FrLpolygon polygon = g_array_index(turtle->polygons, FrLpolygon, turtle->polygons->len - 1);
     g_array_set_size(turtle->polygons, turtle->polygons->len - 1);
     if (turtle->builder != NULL) {
         fr_lbuilder_polygon(turtle->builder, &polygon.pose,
@@ -241,7 +240,7 @@ static void leave_surface(FrLturtle *turtle, const FrLsurface *surface, double s
                     surface->end[1] * scale * pose->heading[k] +
                     surface->end[2] * scale * pose->up[k];
         pose->stand.is_at_tip &= surface->end[k] == 0;
-        pose->position[k] = surface->is_mesh ? pose->position[k]
+        pose->position[k] = surface->is_mesh  ? pose->position[k]
                             : fabs(to) < 1e12 ? (double)(float)to
                                               : 0;
     }
@@ -369,8 +368,7 @@ static void obey_other(FrLturtle *turtle, char symbol, const uint32_t *module) {
         turtle->pose.elasticity = fr_lhead_count(*module) > 0
                                       ? fr_lword_float(module[1])
                                       : turtle->pose.elasticity + (float)turtle->view->old_step;
-        turtle->pose.elasticity =
-            isfinite(turtle->pose.elasticity) ? turtle->pose.elasticity : 0;
+        turtle->pose.elasticity = isfinite(turtle->pose.elasticity) ? turtle->pose.elasticity : 0;
         break;
     case '$':
         end_call(turtle);

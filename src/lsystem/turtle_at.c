@@ -66,7 +66,8 @@ static void set_elasticity(FrLturtle *turtle, char symbol, const uint32_t *modul
         return;
     }
     double id = fr_lturtle_value(module, 0, 0);
-    if (strchr("isd", symbol) == NULL || !(id >= 1 && id <= MIN(turtle->view->tropisms->len, FR_LTROPISMS))) {
+    if (strchr("isd", symbol) == NULL ||
+        !(id >= 1 && id <= MIN(turtle->view->tropisms->len, FR_LTROPISMS))) {
         return;
     }
     unsigned i = (unsigned)id - 1;

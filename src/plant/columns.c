@@ -49,21 +49,28 @@ static FrTableHead *head_of(void *table) {
 }
 
 // Large columns on large pages: filling them then costs a few page faults instead of thousands.
-static void prefer_large_pages(void *data, size_t size) {
+// What realloc() moves does not get them, so it is copied.
+static void *grow(void *old, size_t used, size_t size) {
+    if (size < 2 * LARGE_PAGE) {
+        return g_realloc(old, size);
+    }
+    char *data = g_malloc(size);
     uintptr_t begin = ((uintptr_t)data + LARGE_PAGE - 1) & ~(uintptr_t)(LARGE_PAGE - 1);
     uintptr_t end = ((uintptr_t)data + size) & ~(uintptr_t)(LARGE_PAGE - 1);
-    if (size >= 2 * LARGE_PAGE && end > begin) {
-        madvise((void *)begin, end - begin, MADV_HUGEPAGE); // where it is refused, small ones do
+    madvise((void *)begin, end - begin, MADV_HUGEPAGE); // where it is refused, small ones do
+    if (used > 0) {
+        memcpy(data, old, used);
     }
+    g_free(old);
+    return data;
 }
 
 static void reserve(void *table, const FrColumns *columns, uint32_t capacity) {
     for (size_t c = 0; c < columns->count; c++) {
         const FrColumn *column = &columns->columns[c];
         void *data = fr_column_data(table, column);
-        data = g_realloc_n(data, capacity, column->width);
-        prefer_large_pages(data, (size_t)capacity * column->width);
-        set_column_data(table, column, data);
+        size_t used = (size_t)head_of(table)->count * column->width;
+        set_column_data(table, column, grow(data, used, (size_t)capacity * column->width));
     }
     head_of(table)->capacity = capacity;
 }
@@ -90,6 +97,12 @@ static void fill_rows(void *data, const FrColumn *column, uint32_t first, uint32
         }
         break;
     }
+    }
+}
+
+void fr_columns_reserve(void *table, const FrColumns *columns, uint32_t capacity) {
+    if (capacity > head_of(table)->capacity) {
+        reserve(table, columns, capacity);
     }
 }
 

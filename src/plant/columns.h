@@ -82,6 +82,8 @@ extern const FrColumns fr_bud_columns;
 /// The array of one column of `table` (an FrNodes, FrAxes, FrOrgans or FrBuds).
 void *fr_column_data(const void *table, const FrColumn *column);
 
+/// Room for so many rows in all, so that appending them moves nothing.
+void fr_columns_reserve(void *table, const FrColumns *columns, uint32_t capacity);
 /// Appends `count` fresh rows to the table that `columns` describe; returns the first.
 uint32_t fr_columns_append(void *table, const FrColumns *columns, uint32_t count);
 /// Makes `to` (uninitialized) a copy of `from`, without spare capacity.

@@ -100,6 +100,11 @@ uint32_t fr_plant_append_nodes(FrPlant *plant, uint32_t count) {
     return fr_columns_append(&plant->nodes, &fr_node_columns, count);
 }
 
+void fr_plant_reserve(FrPlant *plant, uint32_t nodes, uint32_t axes) {
+    fr_columns_reserve(&plant->nodes, &fr_node_columns, nodes);
+    fr_columns_reserve(&plant->axes, &fr_axis_columns, axes);
+}
+
 uint32_t fr_plant_append_axes(FrPlant *plant, uint32_t count) {
     return fr_columns_append(&plant->axes, &fr_axis_columns, count);
 }
