@@ -1,8 +1,6 @@
 // The delayed sense-and-react controller and the bound of its stability.
 #include "variation/controller.h"
 
-#include <cglm/struct.h>
-
 #define HALF_TURN 3.14159265358979323846
 /// On the unit circle λ = exp(iw) the characteristic equation reads (λ − 1)(1 + γ/λ) = −K λ^−d:
 /// where the arguments of both sides agree, errors swing for ever with the gain that the moduli
@@ -50,24 +48,4 @@ FrController fr_controller_of(const FrVaryParams *params) {
                           .innovation = (float)innovation,
                           .start = (float)params->scatter,
                           .delay = delay};
-}
-
-vec3s fr_turn_between(vec3s from, vec3s to) {
-    vec3s axis = glms_vec3_cross(from, to);
-    float across = glms_vec3_norm(axis);
-    if (!(across > 1e-12f)) {
-        return (vec3s){{0, 0, 0}};
-    }
-    return glms_vec3_scale(axis, atan2f(across, glms_vec3_dot(from, to)) / across);
-}
-
-vec3s fr_indicator_turn(vec3s heading, vec3s indicator) {
-    float along = glms_vec3_dot(heading, indicator);
-    vec3s axis = glms_vec3_cross(heading, indicator);
-    float across = glms_vec3_norm(axis);
-    if (!(across > 1e-12f)) {
-        return (vec3s){{0, 0, 0}};
-    }
-    float angle = atan2f(across, 1 + fmaxf(along, 0));
-    return glms_vec3_scale(axis, angle / across);
 }

@@ -13,8 +13,7 @@
 #pragma once
 
 #include "frond/variation.h"
-
-#include <math.h>
+#include "math/lanes.h"
 
 // Errors beyond half a turn mean nothing.
 #define FR_LARGEST_ERROR 3.1f
@@ -35,85 +34,109 @@ typedef struct FrController {
     uint32_t delay;
 } FrController;
 
-/// One branch on its way to the tip.
+/// Branches on their way to the tip, one a lane.
 typedef struct FrControl {
-    vec4s errors[FR_ERRORS]; ///< ring, by joint; of four numbers, to be read as they are written
-    vec4s random;            ///< ξ
-    FrKey key;
+    FrLanes3 errors[FR_ERRORS]; ///< ring, by joint
+    FrLanes3 random;            ///< ξ
+    FrKey key[FR_LANES];
     uint32_t joint;
 } FrControl;
 
 FrController fr_controller_of(const FrVaryParams *params);
 
-/// Begins a branch: its first joint has no error.
-static inline void fr_control_begin(FrControl *control, FrKey key) {
-    *control = (FrControl){.key = key};
-}
-
-/// A deviate of mean 0 and variance 1 from 32 random bits: the sum of two uniform ones. The joints
-/// that follow filter what is random in one, so no more is needed, and it costs no logarithm.
-static inline float fr_deviate(uint32_t bits) {
-    int32_t sum = (int32_t)(bits & 0xffff) + (int32_t)(bits >> 16);
-    return (float)(sum - 65535) * 3.7376450e-5f; // √6 / 65536
+/// Two deviates of mean 0 and variance 1 from the random bits of each lane: sums of two uniform
+/// ones of 16 bits. The joints that follow filter what is random in one, so no more is needed, and
+/// it costs no logarithm.
+static inline void fr_deviates(const uint64_t bits[FR_LANES], FrLanes *u, FrLanes *v) {
+    FrLaneBits low, high;
+    for (int k = 0; k < FR_LANES; k++) {
+        low[k] = (uint32_t)bits[k];
+        high[k] = (uint32_t)(bits[k] >> 32);
+    }
+    low = (low & 0xffff) + (low >> 16);
+    high = (high & 0xffff) + (high >> 16);
+    const float scale = 3.7376450e-5f; // √6 / 65536
+    *u = (__builtin_convertvector((FrLaneMask)low, FrLanes) - 65535) * scale;
+    *v = (__builtin_convertvector((FrLaneMask)high, FrLanes) - 65535) * scale;
 }
 
 /// Draws the next joint's random turn, across the frame it should have.
 static inline void fr_control_draw(const FrController *controller, FrControl *control,
-                                   versors frame) {
-    float spread = control->joint == 0 ? controller->start : controller->innovation;
-    uint64_t bits = fr_random_bits(control->key, FR_PURPOSE_TURN, control->joint);
-    float u = spread * fr_deviate((uint32_t)bits);
-    float v = spread * fr_deviate((uint32_t)(bits >> 32));
-    vec3s left = fr_frame_left(frame), up = fr_frame_up(frame);
-    vec4s turn = {{u * left.x + v * up.x, u * left.y + v * up.y, u * left.z + v * up.z, 0}};
-    for (int k = 0; k < 4; k++) {
-        control->random.raw[k] = controller->persistence * control->random.raw[k] + turn.raw[k];
+                                   FrLanes4 frame) {
+    uint64_t bits[FR_LANES];
+    for (int k = 0; k < FR_LANES; k++) {
+        bits[k] = fr_random_bits(control->key[k], FR_PURPOSE_TURN, control->joint);
     }
+    FrLanes u, v;
+    fr_deviates(bits, &u, &v);
+    float spread = control->joint == 0 ? controller->start : controller->innovation;
+    FrLanes3 turn = fr_lanes3_add(fr_lanes3_scale(fr_lanes_left(frame), u * spread),
+                                  fr_lanes3_scale(fr_lanes_up(frame), v * spread));
+    FrLanes persistence = controller->persistence - (FrLanes){0};
+    control->random = fr_lanes3_add(fr_lanes3_scale(control->random, persistence), turn);
+}
+
+/// One coordinate of the next error.
+static inline FrLanes fr_control_step(const FrController *controller, FrLanes last, FrLanes before,
+                                      FrLanes sensed, FrLanes random, FrLanes drive) {
+    return last + ((random + drive) -
+                   (controller->gain * sensed + controller->proprioception * (last - before)));
 }
 
 /// The next joint's error, after its random turn was drawn. `drive` is all that is steady or
 /// foreseen: b − (1 − a) t. Inline: it is done once a joint.
-static inline vec4s fr_control_next(const FrController *controller, FrControl *control,
-                                    vec4s drive) {
+static inline FrLanes3 fr_control_next(const FrController *controller, FrControl *control,
+                                       FrLanes3 drive) {
     uint32_t n = control->joint;
-    vec4s last = control->errors[n % FR_ERRORS];
-    vec4s before = control->errors[(n + FR_ERRORS - 1) % FR_ERRORS];
-    vec4s sensed = control->errors[(n + FR_ERRORS - controller->delay) % FR_ERRORS];
-    vec4s e;
-    for (int k = 0; k < 4; k++) {
-        float turn = last.raw[k] - before.raw[k];
-        e.raw[k] =
-            last.raw[k] + ((control->random.raw[k] + drive.raw[k]) -
-                           (controller->gain * sensed.raw[k] + controller->proprioception * turn));
-    }
-    float square = e.x * e.x + (e.y * e.y + e.z * e.z);
-    if (square > FR_LARGEST_ERROR * FR_LARGEST_ERROR) {
-        float scale = FR_LARGEST_ERROR / sqrtf(square);
-        e = (vec4s){{scale * e.x, scale * e.y, scale * e.z, 0}};
+    const FrLanes3 *last = &control->errors[n % FR_ERRORS];
+    const FrLanes3 *before = &control->errors[(n + FR_ERRORS - 1) % FR_ERRORS];
+    const FrLanes3 *sensed = &control->errors[(n + FR_ERRORS - controller->delay) % FR_ERRORS];
+    const FrLanes3 *random = &control->random;
+    FrLanes3 e = {
+        fr_control_step(controller, last->x, before->x, sensed->x, random->x, drive.x),
+        fr_control_step(controller, last->y, before->y, sensed->y, random->y, drive.y),
+        fr_control_step(controller, last->z, before->z, sensed->z, random->z, drive.z),
+    };
+    FrLanes square = fr_lanes3_dot(e, e);
+    FrLaneMask is_beyond = square > FR_LARGEST_ERROR * FR_LARGEST_ERROR;
+    if (fr_lanes_any(is_beyond)) {
+        FrLanes scale = FR_LARGEST_ERROR / fr_lanes_sqrt(square);
+        e = fr_lanes3_scale(e, fr_lanes_select(is_beyond, scale, 1 - (FrLanes){0}));
     }
     control->joint = n + 1;
     control->errors[(n + 1) % FR_ERRORS] = e;
     return e;
 }
 
-/// The smallest turn between two unit vectors, as a rotation vector; 0 for opposite ones.
-vec3s fr_turn_between(vec3s from, vec3s to);
+/// The smallest turns between unit vectors, as rotation vectors; 0 for opposite ones.
+static inline FrLanes3 fr_turn_between(FrLanes3 from, FrLanes3 to) {
+    FrLanes3 axis = fr_lanes3_cross(from, to);
+    FrLanes across = fr_lanes_sqrt(fr_lanes3_dot(axis, axis));
+    FrLanes scale = fr_lanes_angle_over(across, fr_lanes3_dot(from, to));
+    return fr_lanes3_scale(axis, fr_lanes_select(across > 1e-12f, scale, (FrLanes){0}));
+}
 
-/// The turn from `heading` towards the sum of indicators, as a rotation vector: the angle to
+/// The turns from headings towards sums of indicators, as rotation vectors: the angle to
 /// heading + indicator, but never beyond the indicator and at most a right angle.
-vec3s fr_indicator_turn(vec3s heading, vec3s indicator);
+static inline FrLanes3 fr_indicator_turn(FrLanes3 heading, FrLanes3 indicator) {
+    FrLanes along = fr_lanes3_dot(heading, indicator);
+    FrLanes3 axis = fr_lanes3_cross(heading, indicator);
+    FrLanes across = fr_lanes_sqrt(fr_lanes3_dot(axis, axis));
+    FrLanes ahead = 1 + fr_lanes_select(along > 0, along, (FrLanes){0});
+    return fr_lanes3_scale(axis, fr_lanes_angle_over(across, ahead));
+}
 
-/// The rotation of a rotation vector of at most π. Power series of sin and cos: exact to the last
+/// The rotations of rotation vectors of at most π. Power series of sin and cos: exact to the last
 /// bits of a float there, and without a root.
-static inline versors fr_rotation_of(vec4s e) {
-    float x = 0.25f * (e.x * e.x + (e.y * e.y + e.z * e.z));
-    float square = x * x; // in pairs, so that no term waits for all others
-    float s = (1 - x * (1.0f / 6)) + square * ((1.0f / 120 - x * (1.0f / 5040)) +
-                                               square * (1.0f / 362880 - x * (1.0f / 39916800)));
-    float c =
+static inline FrLanes4 fr_rotation_of(FrLanes3 e) {
+    FrLanes x = 0.25f * fr_lanes3_dot(e, e);
+    FrLanes square = x * x; // in pairs, so that no term waits for all others
+    FrLanes s = (1 - x * (1.0f / 6)) + square * ((1.0f / 120 - x * (1.0f / 5040)) +
+                                                 square * (1.0f / 362880 - x * (1.0f / 39916800)));
+    FrLanes c =
         (1 - x * (1.0f / 2)) +
         square * ((1.0f / 24 - x * (1.0f / 720)) +
                   square * ((1.0f / 40320 - x * (1.0f / 3628800)) + square * (1.0f / 479001600)));
     s *= 0.5f;
-    return (versors){{s * e.x, s * e.y, s * e.z, c}};
+    return (FrLanes4){s * e.x, s * e.y, s * e.z, c};
 }

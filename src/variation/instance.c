@@ -1,6 +1,8 @@
 // Instances: one loop over the branches, from bearers to what they bear.
 #include "variation/vary.h"
 
+#include "plant/frames.h"
+
 #include <cglm/struct.h>
 
 #include <string.h>
@@ -12,82 +14,153 @@ typedef struct Growth {
     FrKey key;
 } Growth;
 
-/// a* · b
-static versors between(versors a, versors b) {
-    return fr_frame_step((versors){{-a.x, -a.y, -a.z, a.w}}, b);
+/// Branches that do not bear each other, walked abreast.
+typedef struct Abreast {
+    uint32_t axis[FR_LANES];
+    uint32_t count;
+    bool is_pushed, is_drawn; ///< any of them
+} Abreast;
+
+static bool is_drawn(const Growth *growth, uint32_t axis) {
+    return growth->plan->stroke[axis] != FR_NONE && growth->plan->controller.late > 0;
 }
 
-/// Copies the rotations of an axis. Like grow_controlled() it leaves in `frame` where the
-/// internodes point, for what they bear; positions come last, for the whole plant.
-static void grow_straight(const Growth *growth, uint32_t axis, versors frame) {
+static bool is_pushed(const Growth *growth, uint32_t axis) {
+    return growth->plan->indicator != NULL && glms_vec3_norm2(growth->plan->indicator[axis]) > 0;
+}
+
+/// Copies the rotations of an axis and brings its cache up to date.
+static void grow_straight(const Growth *growth, uint32_t axis) {
     FrNodes *nodes = &growth->instance->nodes;
-    for (uint32_t i = growth->instance->axes.first[axis]; i != FR_NONE; i = nodes->next[i]) {
+    const FrAxes *axes = &growth->instance->axes;
+    for (uint32_t i = axes->first[axis]; i != FR_NONE; i = nodes->next[i]) {
         nodes->rotation[i] = growth->rotation[i];
-        frame = fr_frame_step(frame, growth->rotation[i]);
-        nodes->frame[i] = frame;
+        fr_update_frame(nodes, axes, i);
     }
 }
 
-/// Grows an axis by the controller. `wanted` is the frame that a joint should have, seen from the
-/// first internode as it really stands.
-static void grow_controlled(const Growth *growth, uint32_t axis, versors bearer, vec3s indicator) {
-    const FrController *controller = &growth->plan->controller;
+/// Makes the first internodes, which stay as they are, and hands out their frames. An unused lane
+/// repeats the first.
+static FrLanes4 begin_abreast(const Growth *growth, const Abreast *abreast, FrControl *control,
+                              FrLanes3 *indicator, uint32_t node[FR_LANES]) {
     FrPlant *plant = growth->instance;
-    FrNodes *nodes = &plant->nodes;
-    bool is_pushed = indicator.x != 0 || indicator.y != 0 || indicator.z != 0;
-    bool is_drawn = growth->plan->stroke[axis] != FR_NONE && controller->late > 0;
-    uint32_t i = plant->axes.first[axis];
-    nodes->rotation[i] = growth->rotation[i];
-    versors wanted = fr_frame_step(bearer, growth->rotation[i]);
-    versors last = wanted;
-    nodes->frame[i] = wanted;
-    FrControl control;
-    FrKey path = plant->axes.path[axis];
-    fr_control_begin(&control, fr_key_child(growth->key, path != 0 ? path : axis));
-    while ((i = nodes->next[i]) != FR_NONE) {
-        vec3s drive = {{0, 0, 0}};
-        vec3s before = is_drawn ? fr_frame_heading(wanted) : drive;
-        wanted = fr_frame_step(wanted, growth->rotation[i]);
-        if (is_drawn) {
-            vec3s turn = fr_turn_between(before, fr_frame_heading(wanted));
-            drive = glms_vec3_scale(turn, -controller->late);
+    for (uint32_t k = 0; k < FR_LANES; k++) {
+        uint32_t axis = abreast->axis[k < abreast->count ? k : 0];
+        uint32_t first = node[k] = plant->axes.first[axis];
+        plant->nodes.rotation[first] = growth->rotation[first];
+        fr_update_frame(&plant->nodes, &plant->axes, first);
+        FrKey path = plant->axes.path[axis];
+        control->key[k] = fr_key_child(growth->key, path != 0 ? path : axis);
+        if (is_pushed(growth, axis)) {
+            vec3s push = growth->plan->indicator[axis];
+            indicator->x[k] = push.x;
+            indicator->y[k] = push.y;
+            indicator->z[k] = push.z;
         }
-        if (is_pushed) {
-            vec3s turn = fr_indicator_turn(fr_frame_heading(wanted), indicator);
-            drive = glms_vec3_add(drive, glms_vec3_scale(turn, controller->gain));
+    }
+    return fr_lanes4_gather(plant->nodes.frame, node);
+}
+
+/// Goes on to the next internodes; false where all have ended. One that has ended stays.
+static bool go_on(const FrNodes *nodes, uint32_t count, uint32_t node[FR_LANES],
+                  bool is_on[FR_LANES]) {
+    bool is_any = false;
+    for (uint32_t k = 0; k < FR_LANES; k++) {
+        uint32_t next = nodes->next[node[k]];
+        is_on[k] = k < count && next != FR_NONE;
+        node[k] = next != FR_NONE ? next : node[k];
+        is_any |= is_on[k];
+    }
+    return is_any;
+}
+
+/// Grows axes by the controller. `wanted` are the frames that joints should have, seen from the
+/// first internodes as they really stand.
+FR_LANES_CLONES static void grow_abreast(const Growth *growth, const Abreast *abreast) {
+    const FrController *controller = &growth->plan->controller;
+    FrNodes *nodes = &growth->instance->nodes;
+    uint32_t node[FR_LANES];
+    bool is_on[FR_LANES];
+    FrControl control = {0};
+    FrLanes3 indicator = {0};
+    FrLanes4 wanted = begin_abreast(growth, abreast, &control, &indicator, node);
+    FrLanes late = {0};
+    for (uint32_t k = 0; k < abreast->count; k++) {
+        late[k] = is_drawn(growth, abreast->axis[k]) ? controller->late : 0;
+    }
+    FrLanes4 frame = wanted;
+    FrLanes3 tip = fr_lanes3_gather(nodes->position, node);
+    while (go_on(nodes, abreast->count, node, is_on)) {
+        FrLanes3 drive = {0};
+        FrLanes4 rotation = fr_lanes4_gather(growth->rotation, node);
+        FrLanes4 before = wanted;
+        wanted = fr_lanes_frame_step(wanted, rotation);
+        if (abreast->is_drawn) {
+            FrLanes3 turn = fr_turn_between(fr_lanes_heading(before), fr_lanes_heading(wanted));
+            drive = fr_lanes3_scale(turn, -late);
+        }
+        if (abreast->is_pushed) {
+            FrLanes3 turn = fr_indicator_turn(fr_lanes_heading(wanted), indicator);
+            FrLanes gain = controller->gain - (FrLanes){0};
+            drive = fr_lanes3_add(drive, fr_lanes3_scale(turn, gain));
         }
         if (controller->start > 0) {
             fr_control_draw(controller, &control, wanted);
         }
-        vec4s error = fr_control_next(controller, &control, glms_vec4(drive, 0));
-        versors frame = fr_frame_step(fr_rotation_of(error), wanted);
-        nodes->rotation[i] = between(last, frame);
-        nodes->frame[i] = frame;
-        last = frame;
+        FrLanes3 error = fr_control_next(controller, &control, drive);
+        FrLanes4 back = {-frame.x, -frame.y, -frame.z, frame.w};
+        FrLanes4 turned = fr_lanes_frame_step(fr_rotation_of(error), wanted);
+        rotation = fr_lanes_frame_step(back, turned);
+        // Now as fr_update_frame() does it, to the bit.
+        frame = fr_lanes_frame_step(frame, rotation);
+        FrLanes length = fr_lanes_gather(nodes->length, node);
+        tip = fr_lanes3_add(tip, fr_lanes3_scale(fr_lanes_heading(frame), length));
+        fr_lanes4_scatter(nodes->rotation, node, rotation, is_on);
+        fr_lanes4_scatter(nodes->frame, node, frame, is_on);
+        fr_lanes3_scatter(nodes->position, node, tip, is_on);
     }
 }
 
+static void grow_waiting(const Growth *growth, Abreast *abreast) {
+    if (abreast->count > 0) {
+        grow_abreast(growth, abreast);
+        *abreast = (Abreast){.count = 0};
+    }
+}
+
+/// Whether the axis is borne by one of those that wait.
+static bool is_borne(const FrPlant *plant, const Abreast *abreast, uint32_t axis) {
+    uint32_t bearer = plant->axes.bearer[axis];
+    bool is_borne = false;
+    for (uint32_t k = 0; k < abreast->count && bearer != FR_NONE; k++) {
+        is_borne |= plant->nodes.axis[bearer] == abreast->axis[k];
+    }
+    return is_borne;
+}
+
 static void grow(const Growth *growth) {
-    static const versors ground = {{0, 0, 0, 1}};
-    const FrVaryPlan *plan = growth->plan;
-    const FrAxes *axes = &growth->instance->axes;
-    const FrController *controller = &plan->controller;
-    for (uint32_t a = 0; a < axes->count; a++) {
-        if (axes->first[a] == FR_NONE) {
+    FrPlant *plant = growth->instance;
+    Abreast waiting = {.count = 0};
+    for (uint32_t a = 0; a < plant->axes.count; a++) {
+        if (plant->axes.first[a] == FR_NONE) {
             continue;
         }
-        versors bearer =
-            axes->bearer[a] == FR_NONE ? ground : growth->instance->nodes.frame[axes->bearer[a]];
-        vec3s indicator = plan->indicator == NULL ? (vec3s){{0, 0, 0}} : plan->indicator[a];
-        bool is_pushed = glms_vec3_norm2(indicator) > 0;
-        bool is_drawn = plan->stroke[a] != FR_NONE && controller->late > 0;
-        if (is_pushed || is_drawn || controller->start > 0) {
-            grow_controlled(growth, a, bearer, indicator);
-        } else {
-            grow_straight(growth, a, bearer);
+        if (is_borne(plant, &waiting, a)) {
+            grow_waiting(growth, &waiting);
+        }
+        bool has_push = is_pushed(growth, a), has_stroke = is_drawn(growth, a);
+        if (!has_push && !has_stroke && !(growth->plan->controller.start > 0)) {
+            grow_straight(growth, a);
+            continue;
+        }
+        waiting.axis[waiting.count++] = a;
+        waiting.is_pushed |= has_push;
+        waiting.is_drawn |= has_stroke;
+        if (waiting.count == FR_LANES) {
+            grow_waiting(growth, &waiting);
         }
     }
-    fr_plant_update_frames(growth->instance, 0);
+    grow_waiting(growth, &waiting);
 }
 
 void fr_vary_into(const FrVaryPlan *plan, uint64_t seed, FrPlant *instance) {
