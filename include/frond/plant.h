@@ -276,6 +276,13 @@ FR_API void fr_plant_bounds(const FrPlant *plant, vec3s *min, vec3s *max);
 /// reads the skeleton only; skin needs no such copy. Reads the cache.
 FR_API FrPlant *fr_plant_deformed(const FrPlant *plant);
 
+/// Internodes that fr_plant_refined() makes, to be checked against the limits first.
+FR_API uint64_t fr_plant_refined_nodes(const FrPlant *plant, const uint16_t *joints);
+/// A copy in which axis `a` has joints[a] internodes at least: where it has fewer they are cut into
+/// equal pieces, and what stands along them moves to the piece it stands at. Nothing changes its
+/// place. Axes that are FR_POINT_SETS stay as they are.
+FR_API FrPlant *fr_plant_refined(const FrPlant *plant, const uint16_t *joints);
+
 /// Digest of everything that is truth: all columns but the cache, shapes, profiles, deformers.
 FR_API FrDigest fr_plant_digest(const FrPlant *plant);
 /// Bytes allocated for all columns.

@@ -3,9 +3,10 @@
 /// motion, and growth that senses and reacts late.
 ///
 /// After: Sketch-based plant variation (Streit et al.), on a base plant of any engine. What a
-/// variation changes is the direction of internodes and nothing else: how many there are, how long
-/// and thick, which bears which and at which angle a branch leaves its bearer stay the base's. The
-/// base is never written to.
+/// variation changes is the direction of internodes and nothing else: which branch bears which, how
+/// long and thick they are and at which angle a branch leaves its bearer stay the base's. Straight
+/// branches of few internodes are first cut into more, to have joints to bend at. The base is never
+/// written to.
 ///
 ///     base plant ─┬─ skeleton ── selection (pen over a view) ──┐
 ///                 │              strokes (pen in space) ───────┤
@@ -180,6 +181,8 @@ FR_API FrStroke *fr_pen_stroke(FrPen *pen);
       "how much of a joint's turn the next one takes back: straightens")                           \
     X(REAL, anticipation, "0.9", 0, 1, "", "",                                                     \
       "how much of a stroke's turns is followed at once; the rest is sensed late")                 \
+    X(INTEGER, joints, "4", 1, 64, "", "",                                                         \
+      "least number of internodes of a branch that is varied; longer ones are cut into as many")   \
     X(REAL, tilt, "10", 0, 80, "deg", "",                                                          \
       "lasting tilt of a branch under an indicator of one metre across it")
 
@@ -251,12 +254,15 @@ typedef struct FrVaryPlan FrVaryPlan;
 FR_API FR_MUST_USE FrStatus fr_vary_prepare(const FrVary *vary, const FrPlant *base,
                                             const FrContext *context, FrVaryPlan **plan);
 FR_API void fr_vary_plan_free(FrVaryPlan *plan);
+/// What instances are copies of: the base or, where branches had too few joints to bend at, the
+/// base with more of them. Lives as long as the plan and the base.
+FR_API const FrPlant *fr_vary_plan_base(const FrVaryPlan *plan);
 /// The number of the stroke that shapes an axis, in the order they were added; FR_NONE.
 FR_API uint32_t fr_vary_stroke_of(const FrVaryPlan *plan, uint32_t axis);
 /// One instance: a copy of the base with other rotations, its cache up to date. The same plan and
 /// seed give the same bits, and each branch its own draws, whatever else the plant bears.
 FR_API FrPlant *fr_vary_instance(const FrVaryPlan *plan, uint64_t seed);
-/// The same, written over a copy of the base or another instance of the plan.
+/// The same, written over a copy of the plan's base or another instance of the plan.
 FR_API void fr_vary_into(const FrVaryPlan *plan, uint64_t seed, FrPlant *instance);
 /// Instances of seeds `seed`, `seed` + 1, …, in parallel. FR_ERR_LIMIT if together they would take
 /// more than the limits allow. `instances` has room for `count`; on failure all are NULL.

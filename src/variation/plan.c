@@ -6,6 +6,8 @@
 
 #include <string.h>
 
+enum { MOST_JOINTS = 16 }; // that a stroke asks for by its points
+
 typedef struct Preparation {
     FrVaryPlan *plan;
     const FrContext *context;
@@ -135,6 +137,42 @@ static void follow_strokes(FrVaryPlan *plan) {
     g_free(scratch.headings);
 }
 
+/// Internodes that each axis needs to follow what reaches it: a stroke wants as many as it has
+/// points.
+static uint16_t *joints_needed(const FrVaryPlan *plan) {
+    const FrVaryParams *params = &plan->vary->params;
+    uint16_t *joints = g_new0(uint16_t, plan->base->axes.count + 1);
+    for (uint32_t a = 0; a < plan->base->axes.count; a++) {
+        bool is_pushed = plan->indicator != NULL && glms_vec3_norm2(plan->indicator[a]) > 0;
+        if (plan->stroke[a] != FR_NONE) {
+            const FrDrawn *drawn = &g_array_index(plan->vary->strokes, FrDrawn, plan->stroke[a]);
+            size_t points;
+            fr_stroke_points(drawn->stroke, &points);
+            joints[a] = (uint16_t)MAX((int)MIN(points, MOST_JOINTS), params->joints);
+        } else if (is_pushed || params->scatter > 0) {
+            joints[a] = (uint16_t)params->joints;
+        }
+    }
+    return joints;
+}
+
+/// Gives branches with few joints, which a straight stem has, more of them.
+static FrStatus refine(FrVaryPlan *plan, const FrContext *context) {
+    uint16_t *joints = joints_needed(plan);
+    uint64_t count = fr_plant_refined_nodes(plan->base, joints);
+    FrStatus status = FR_OK;
+    if (count > plan->base->nodes.count) {
+        status = fr_limit_check(count, context->limits.nodes, "nodes", "the variation", (FrSpan){0},
+                                context->diags);
+        if (status == FR_OK) {
+            plan->refined = fr_plant_refined(plan->base, joints);
+            plan->base = plan->refined;
+        }
+    }
+    g_free(joints);
+    return status;
+}
+
 /// Axes looked at, for all words of all choices.
 static FrStatus check_work(const FrVary *vary, const FrPlant *base, const FrContext *context) {
     uint64_t words = 0;
@@ -178,6 +216,7 @@ FrStatus fr_vary_prepare(const FrVary *vary, const FrPlant *base, const FrContex
     FrStatus summed = status == FR_CANCELLED ? status : sum_indicators(&preparation);
     status = summed != FR_OK ? summed : status;
     g_free(preparation.marks);
+    status = status == FR_OK ? refine(made, context) : status;
     if (status != FR_OK) {
         fr_vary_plan_free(made);
         return status;
@@ -192,8 +231,13 @@ void fr_vary_plan_free(FrVaryPlan *plan) {
         g_free(plan->stroke);
         g_free(plan->rotation);
         g_free(plan->indicator);
+        fr_plant_free(plan->refined);
         g_free(plan);
     }
+}
+
+const FrPlant *fr_vary_plan_base(const FrVaryPlan *plan) {
+    return plan->base;
 }
 
 uint32_t fr_vary_stroke_of(const FrVaryPlan *plan, uint32_t axis) {

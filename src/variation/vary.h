@@ -26,7 +26,8 @@ struct FrVary {
 
 struct FrVaryPlan {
     const FrVary *vary;
-    const FrPlant *base;
+    const FrPlant *base; ///< what instances are copies of: the plant varied, or `refined`
+    FrPlant *refined;    ///< the plant varied with more joints, owned; NULL if it has enough
     FrController controller;
     uint32_t *stroke;  ///< of every axis, FR_NONE
     versors *rotation; ///< of every node as drawn; NULL: the base's

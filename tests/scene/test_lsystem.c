@@ -93,12 +93,13 @@ static void own_seed(void) {
 
 static void varied(void) {
     FrDocument *document;
-    FrScene *scene = built(&document,
-                           "<frond version='1'>" BUSH
-                           "<plant id='shore'><vary base='bush'><indicator kind='wind' to='2,0,0'/>"
-                           "</vary></plant><scene><place plant='shore'/><place plant='bush'/>"
-                           "</scene></frond>",
-                           -1);
+    FrScene *scene =
+        built(&document,
+              "<frond version='1'>" BUSH
+              "<plant id='shore'><vary base='bush' joints='1'><indicator kind='wind' to='2,0,0'/>"
+              "</vary></plant><scene><place plant='shore'/><place plant='bush'/>"
+              "</scene></frond>",
+              -1);
     g_assert_cmpuint(fr_vary_topology_digest(plant_at(scene, 0)->plant), ==,
                      fr_vary_topology_digest(plant_at(scene, 1)->plant));
     g_assert_cmpuint(fr_plant_digest(plant_at(scene, 0)->plant), !=,

@@ -160,6 +160,50 @@ static void follows_the_stroke(void) {
     fr_plant_free(base);
 }
 
+/// A pole of one internode follows a stroke all the same, and leans in the wind.
+static void straight_stems_bend(void) {
+    FrPlant *pole = fr_plant_new("pole");
+    add_branch(pole, FR_NONE, 0, 1, 2);
+    fr_plant_update_frames(pole, 0);
+    FrVaryParams params = vary_params();
+    params.scatter = 0;
+    params.anticipation = 1;
+    FrVary *vary = fr_vary_new(&params);
+    FrVaryPlan *plan = prepare(vary, pole);
+    g_assert_true(fr_vary_plan_base(plan) == pole); // nothing asks for joints
+    fr_vary_plan_free(plan);
+    FrStroke *stroke =
+        fr_stroke_parse("0,0,0 0,0,1 0.2,0,1.8 0.6,0,2.4 1,0,2.6 1.4,0,2.7", (FrSpan){0}, NULL);
+    fr_vary_add_stroke(vary, stroke, "", FR_APPLY_SELECTED, (FrSpan){0});
+    plan = prepare(vary, pole);
+    FrPlant *drawn = fr_vary_instance(plan, 1);
+    g_assert_cmpuint(drawn->nodes.count, ==, 6); // the points of the stroke
+    g_assert_cmpfloat(drawn->nodes.position[5].x, >, 0.5f);
+    assert_sound(drawn);
+    fr_plant_free(drawn);
+    fr_vary_plan_free(plan);
+    fr_vary_free(vary);
+    vary = fr_vary_new(&params);
+    fr_vary_add_indicator(vary, (vec3s){{0, 1, 0}}, "", FR_APPLY_BOTH, (FrSpan){0});
+    plan = prepare(vary, pole);
+    FrPlant *blown = fr_vary_instance(plan, 1);
+    g_assert_cmpuint(blown->nodes.count, ==, 4);
+    g_assert_cmpfloat(blown->nodes.position[3].y, >, 0.05f);
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    context.limits.nodes = 3;
+    FrVaryPlan *refused;
+    g_assert_cmpint(fr_vary_prepare(vary, pole, &context, &refused), ==, FR_ERR_LIMIT);
+    g_assert_null(refused);
+    fr_diags_free(context.diags);
+    fr_plant_free(blown);
+    fr_vary_plan_free(plan);
+    fr_stroke_unref(stroke);
+    fr_vary_free(vary);
+    fr_params_clear(fr_vary_table(), &params);
+    fr_plant_free(pole);
+}
+
 /// Mean distance of the same joints over the height.
 static double difference(const FrPlant *one, const FrPlant *other, double height) {
     double sum = 0;
@@ -291,6 +335,7 @@ static void refusals(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/variation/vary/a stem without joints is cut to bend", straight_stems_bend);
     g_test_add_func("/variation/vary/nothing drawn and nothing random is the base", nothing_drawn);
     g_test_add_func("/variation/vary/a local stroke changes one twig alone", one_twig_alone);
     g_test_add_func("/variation/vary/strokes reach the selected, their descendants, or both",
