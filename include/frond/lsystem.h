@@ -82,6 +82,11 @@ typedef struct FrLquery {
     float width, scale;                ///< of the turtle
 } FrLquery;
 
+/// Answers R(?,?): roll and pitch, in degrees, that turn the heading to `light` (a unit vector in
+/// the plant's coordinates) by `\(roll) &(pitch) /(roll)`. A second parameter that is not open is
+/// the most that it pitches; a zero vector turns nothing.
+FR_API void fr_lquery_bend(const FrLquery *query, vec3s light);
+
 /// Who answers open symbols: all of a step in one batch, in the order of the string.
 typedef struct FrEnvironment {
     void *data;
@@ -115,8 +120,10 @@ typedef struct FrLsettings {
     void *print_user;
     const double *values; ///< for the names of FrLoptions.values, in their order; NULL: those there
     double unit;          ///< metres of one unit of the file
-    FrMaterial *axes, *organs; ///< their materials, borrowed; NULL: brown and green ones
-    bool inherits;             ///< where those are NULL there is none: that of what bears the plant
+    FrMaterial *axes, *organs;  ///< their materials, borrowed; NULL: brown and green ones
+    FrMaterial *const *colours; ///< of organs in colour 1, 2, … of `;(n)`, borrowed
+    size_t colour_count;        ///< in other colours they are of `organs`
+    bool inherits;     ///< where those are NULL there is none: that of what bears the plant
     const char *sites; ///< symbols that place something: organs without a shape, scaled by the
                        ///< first parameter, whose component is called like the symbol; NULL: none
 } FrLsettings;
@@ -168,6 +175,10 @@ typedef struct FrLdrawn {
 FR_API FR_MUST_USE FrStatus fr_lderivation_plant(FrLderivation *derivation,
                                                  const FrContext *context, FrPlant **plant,
                                                  FrLdrawn *drawn);
+
+/// Draws the string as it is: open symbols stay open until fr_lderivation_ask().
+FR_API FR_MUST_USE FrStatus fr_lderivation_draw(FrLderivation *derivation, const FrContext *context,
+                                                FrPlant **plant, FrLdrawn *drawn);
 
 /// Reads a view file (.v) and what it names, relative to `folder`: functions, contours, surfaces.
 /// Commands that only concern pictures are read over; unknown ones are warnings.

@@ -24,6 +24,8 @@
     X(REAL, unit, "1", 0.000001, 1000000, "m", "", "length of one unit of the text")               \
     X(TEXT, material, "", 0, 0, "", "", "id of the material of its axes")                          \
     X(TEXT, leaf_material, "", 0, 0, "", "", "id of the material of its surfaces and polygons")    \
+    X(TEXT, colours, "", 0, 0, "", "",                                                             \
+      "ids of the materials of organs in colour 1, 2, … of ;(n), separated by blanks")             \
     X(VECTOR, light, "0.6, 0, 0.8", -1000000, 1000000, "", "",                                     \
       "direction towards the light that answers R")                                                \
     X(REAL, light_strength, "1", 0, 1000000, "", "", "what I and ?E receive")                      \
@@ -53,6 +55,8 @@ FR_API void fr_lmodel_set_print(FrLmodel *model, void (*print)(void *user, const
                                 void *user);
 /// Materials of axes and of organs; NULL: its own. Takes references.
 FR_API void fr_lmodel_set_materials(FrLmodel *model, FrMaterial *axes, FrMaterial *organs);
+/// Materials of the colours from 1; at most 255. Takes references.
+FR_API void fr_lmodel_set_colours(FrLmodel *model, FrMaterial *const *materials, size_t count);
 /// Reads the view and compiles `text`, or the file of the parameters if that is NULL, relative to
 /// `folder`. `span` is where the model is described. Once a model.
 FR_API FR_MUST_USE FrStatus fr_lmodel_compile(FrLmodel *model, FrSource *text, const char *folder,

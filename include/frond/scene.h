@@ -21,6 +21,15 @@ typedef struct FrStand {
     double scale;
 } FrStand;
 
+/// One step of plants that grow in each other's light.
+typedef struct FrSceneStep {
+    uint64_t step;                 ///< from 1
+    double seconds, light_seconds; ///< wall-clock: in all, and for the light
+    uint64_t nodes, organs;        ///< of the growing plants before the step
+    uint64_t queries;              ///< answered
+    uint64_t rays_recast;          ///< traced anew because of what has grown
+} FrSceneStep;
+
 typedef struct FrScene {
     char *name;
     GArray *plants;                     ///< FrScenePlant
@@ -30,13 +39,17 @@ typedef struct FrScene {
     const FrSurroundings *surroundings; ///< borrowed from the document; NULL: none
     uint32_t obstacles; ///< how many of the last plants and stands are obstacles, 0 or 1: one plant
                         ///< whose organs they are
+    GArray *steps;      ///< FrSceneStep; NULL or empty: nothing grew in the light
+    double light_seconds; ///< of all steps
+    FrLightStats light;   ///< of the last step
     uint64_t seed;
 } FrScene;
 
 /// Builds every plant that stands somewhere; a document without places shows its first plant at
-/// the origin. `seed` replaces the seeds of all plants unless it is negative; places that have a
-/// seed of their own then still differ, by a mix of both. Together the plants take at most
-/// FrLimits.bytes. The document must outlive the scene.
+/// the origin. L-systems with open symbols grow together, each place a plant of its own, if the
+/// scene has a `<light>`. `seed` replaces the seeds of all plants unless it is negative; places
+/// that have a seed of their own then still differ, by a mix of both. Together the plants take at
+/// most FrLimits.bytes. The document must outlive the scene.
 FR_API FR_MUST_USE FrStatus fr_scene_build(const FrDocument *document, int64_t seed,
                                            const FrContext *context, FrScene **scene);
 /// Builds a plant that is no variation, alone; `seed` < 0 is its own. `counts` (may be NULL) is

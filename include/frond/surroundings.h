@@ -3,6 +3,7 @@
 /// the light.
 #pragma once
 
+#include "frond/light_density.h"
 #include "frond/material.h"
 #include "frond/param.h"
 
@@ -40,8 +41,9 @@
 
 /// A `<light>`: how plants sense the light.
 #define FR_LIGHT_PARAMS(X)                                                                         \
-    X(CHOICE, by, "views", 0, 0, "", "views shadows",                                              \
-      "looking at sun, sky and lamps; or shadows in voxels")                                       \
+    X(CHOICE, by, "views", 0, 0, "", "views density shadows",                                      \
+      "looking at sun, sky and lamps; the density of rays, with light from walls; or shadows in "  \
+      "voxels")                                                                                    \
     X(INTEGER, views, "20", 1, 4096, "", "", "directions that are looked into")                    \
     X(SWITCH, even, "no", 0, 1, "", "", "all views count the same, not by their light")            \
     X(CHOICE, towards, "brightest", 0, 0, "", "brightest mean",                                    \
@@ -52,7 +54,8 @@
     X(SWITCH, relative, "no", 0, 1, "", "", "light is told as a part of that at `reference`")      \
     X(VECTOR, reference, "0, 0, 0", -1000000, 1000000, "m", "", "a place in full light")
 
-enum { FR_LIGHT_BY_VIEWS, FR_LIGHT_BY_SHADOWS };
+enum { FR_LIGHT_BY_VIEWS, FR_LIGHT_BY_DENSITY, FR_LIGHT_BY_SHADOWS };
+enum { FR_LIGHT_TOWARDS_BRIGHTEST, FR_LIGHT_TOWARDS_MEAN };
 
 typedef struct FrObstacle {
     FR_OBSTACLE_PARAMS(FR_PARAM_FIELD)
@@ -68,6 +71,7 @@ typedef struct FrSunParams {
 } FrSunParams;
 typedef struct FrLightParams {
     FR_LIGHT_PARAMS(FR_PARAM_FIELD)
+    FR_DENSITY_PARAMS(FR_PARAM_FIELD)
     bool is_given; ///< the document has a `<light>`
     FrSpan span;
 } FrLightParams;

@@ -49,10 +49,13 @@ static void set_text(json_t *object, const char *key, const char *text) {
     json_object_set_new(object, key, json_string(text));
 }
 
-static json_t *seconds_of(const CliSession *session, const FrIoStats *io) {
+static json_t *seconds_of(const CliSession *session, const FrScene *scene, const FrIoStats *io) {
     json_t *seconds = json_object();
     json_object_set_new(seconds, "read", json_real(session->read_seconds));
     json_object_set_new(seconds, "build", json_real(session->build_seconds));
+    if (scene->light_seconds > 0) {
+        json_object_set_new(seconds, "light", json_real(scene->light_seconds));
+    }
     if (io != NULL) {
         json_object_set_new(seconds, "skin", json_real(io->skin_seconds));
         json_object_set_new(seconds, "write", json_real(io->write_seconds));
@@ -62,6 +65,27 @@ static json_t *seconds_of(const CliSession *session, const FrIoStats *io) {
     }
     json_object_set_new(seconds, "total", json_real(cli_now() - session->began));
     return seconds;
+}
+
+/// What every step of plants that grow in the light took and made.
+static void set_steps(json_t *stats, const FrScene *scene) {
+    if (scene->steps == NULL || scene->steps->len == 0) {
+        return;
+    }
+    set_count(stats, "steps", scene->steps->len);
+    set_count(stats, "photons", scene->light.photons);
+    set_count(stats, "rays", scene->light.rays);
+    json_t *steps = json_array();
+    for (guint i = 0; i < scene->steps->len; i++) {
+        const FrSceneStep *step = &g_array_index(scene->steps, FrSceneStep, i);
+        json_array_append_new(
+            steps,
+            json_pack("{s:I, s:f, s:f, s:I, s:I, s:I, s:I}", "step", (json_int_t)step->step,
+                      "seconds", step->seconds, "light", step->light_seconds, "nodes",
+                      (json_int_t)step->nodes, "organs", (json_int_t)step->organs, "queries",
+                      (json_int_t)step->queries, "rays_recast", (json_int_t)step->rays_recast));
+    }
+    json_object_set_new(stats, "per_step", steps);
 }
 
 static uint64_t peak_bytes(void) {
@@ -102,7 +126,8 @@ static json_t *make_stats(const CliSession *session, const char *document, const
         set_count(stats, "vertices", io->vertices);
         set_count(stats, "triangles", io->triangles);
     }
-    json_object_set_new(stats, "seconds", seconds_of(session, io));
+    set_steps(stats, scene);
+    json_object_set_new(stats, "seconds", seconds_of(session, scene, io));
     set_count(stats, "peak_bytes", peak_bytes());
     return stats;
 }

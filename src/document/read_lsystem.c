@@ -53,6 +53,30 @@ static void read_define(FrReader *reader, uint32_t node, FrLmodel *model) {
     fr_params_clear(table, &params);
 }
 
+/// The materials of colours, by the names of an attribute.
+static void read_colours(FrReader *reader, uint32_t node, const char *text, FrLmodel *model) {
+    enum { COLOURS = 255 };
+    FrMaterial *materials[COLOURS];
+    size_t count = 0;
+    char **names = g_strsplit_set(text == NULL ? "" : text, " \t\r\n", -1);
+    for (char **name = names; *name != NULL; name++) {
+        if (**name == '\0') {
+            continue;
+        }
+        FrMaterial *material = fr_read_material(reader, node, "colours", *name);
+        if (count == COLOURS) {
+            fr_read_error(reader, "too-many-colours", fr_read_value_place(reader, node, "colours"),
+                          "there are at most %d colours", COLOURS);
+            break;
+        }
+        if (material != NULL) {
+            materials[count++] = material;
+        }
+    }
+    g_strfreev(names);
+    fr_lmodel_set_colours(model, materials, count);
+}
+
 /// The text of the L-system, unless a file has it.
 static FrSource *read_text(FrReader *reader, uint32_t node, const FrLsystemParams *params) {
     FrSource *text = fr_read_source(reader, node);
@@ -80,6 +104,7 @@ FrLmodel *fr_read_lsystem(FrReader *reader, uint32_t node) {
     }
     fr_lmodel_set_materials(model, fr_read_material(reader, node, "material", params.material),
                             fr_read_material(reader, node, "leaf-material", params.leaf_material));
+    read_colours(reader, node, params.colours, model);
     FrSource *text = read_text(reader, node, &params);
     if (reader->status == FR_OK) {
         FrXmlRange place = fr_read_value_place(reader, node, "file");

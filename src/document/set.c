@@ -21,8 +21,8 @@ static void clear_target(void *data) {
 
 /// What a path calls an element, or NULL.
 static char *name_of(const FrXmlTree *tree, uint32_t node, FrElementId element) {
-    if (element == FR_ELEMENT_SCENE || element == FR_ELEMENT_LSYSTEM ||
-        element == FR_ELEMENT_VARY) {
+    if (element == FR_ELEMENT_SCENE || element == FR_ELEMENT_SUN || element == FR_ELEMENT_LIGHT ||
+        element == FR_ELEMENT_LSYSTEM || element == FR_ELEMENT_VARY) {
         return g_strdup(fr_element(element).name);
     }
     const FrXmlAttribute *attribute =

@@ -11,7 +11,7 @@ static const FrParam lamp_rows[] = {FR_LAMP_PARAMS(FR_PARAM_ROW)};
 static const FrParam sun_rows[] = {FR_SUN_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
 #define FR_PARAM_STRUCT FrLightParams
-static const FrParam light_rows[] = {FR_LIGHT_PARAMS(FR_PARAM_ROW)};
+static const FrParam light_rows[] = {FR_LIGHT_PARAMS(FR_PARAM_ROW) FR_DENSITY_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
 
 #define TABLE(name, struct_type, text)                                                             \

@@ -43,6 +43,11 @@ FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *co
                                  (vec3s){{0.42F, 0.33F, 0.24F}}, 0);
     builder->leaf = add_material(builder->plant, settings->organs, settings->inherits, "leaf",
                                  (vec3s){{0.30F, 0.48F, 0.16F}}, 0.35);
+    builder->colour_count = (uint32_t)settings->colour_count;
+    builder->colours = g_new(uint32_t, settings->colour_count);
+    for (size_t i = 0; i < settings->colour_count; i++) {
+        builder->colours[i] = fr_plant_add_material(builder->plant, settings->colours[i]);
+    }
     builder->unit = settings->unit;
     builder->sites = settings->sites;
     for (const char *site = builder->sites; site != NULL && *site != '\0'; site++) {
@@ -54,6 +59,7 @@ FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *co
 void fr_lbuilder_free(FrLbuilder *builder) {
     if (builder != NULL) {
         fr_plant_free(builder->plant);
+        g_free(builder->colours);
         g_free(builder);
     }
 }
@@ -282,6 +288,11 @@ void fr_lbuilder_segment(FrLbuilder *builder, FrLstand *stand, const FrLsegment 
 }
 
 // Where an organ stands is told in the plant's coordinates until the end.
+uint32_t fr_lbuilder_material(const FrLbuilder *builder, const FrLpose *pose, uint32_t plain) {
+    bool is_own = pose->colour >= 1 && (uint32_t)pose->colour <= builder->colour_count;
+    return is_own ? builder->colours[pose->colour - 1] : plain;
+}
+
 void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at[3], uint32_t shape,
                        double scale, uint32_t material) {
     FrPlant *plant = builder->plant;

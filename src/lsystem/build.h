@@ -13,8 +13,10 @@ struct FrLbuilder {
     uint32_t nodes, axes; ///< in use; the plant has some more
     uint32_t segment_component, organ_component;
     uint32_t wood, leaf; ///< materials
-    double unit;         ///< metres of one unit of the file
-    const char *sites;   ///< symbols that place something, NULL
+    uint32_t *colours;   ///< materials of the colours from 1
+    uint32_t colour_count;
+    double unit;       ///< metres of one unit of the file
+    const char *sites; ///< symbols that place something, NULL
 };
 
 FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *context);
@@ -41,6 +43,8 @@ static inline void fr_lbuilder_include(FrLbuilder *builder, const double at[3]) 
 }
 /// A frame of the plant from the turtle's axes.
 versors fr_lbuilder_frame(const double heading[3], const double left[3]);
+/// The material of the pose's colour; `plain` if that has none of its own.
+uint32_t fr_lbuilder_material(const FrLbuilder *builder, const FrLpose *pose, uint32_t plain);
 /// Places an organ of a shape at a point with the turtle's axes.
 void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at[3], uint32_t shape,
                        double scale, uint32_t material);

@@ -23,10 +23,10 @@ static float distance_to(const FrLsimple *simple, vec3s position) {
                : 1e6F;
 }
 
-static void answer_direction(const FrLsimple *simple, const FrLquery *query) {
-    float ahead = glms_vec3_dot(simple->light, query->heading);
-    float up = glms_vec3_dot(simple->light, query->up);
-    float left = glms_vec3_dot(simple->light, query->left);
+void fr_lquery_bend(const FrLquery *query, vec3s light) {
+    float ahead = glms_vec3_dot(light, query->heading);
+    float up = glms_vec3_dot(light, query->up);
+    float left = glms_vec3_dot(light, query->left);
     float side = hypotf(up, left);
     float roll = side > 1e-6F ? atan2f(left, up) : 0, pitch = side > 1e-6F ? atan2f(side, ahead)
                                                               : ahead < 0  ? GLM_PIf
@@ -49,7 +49,7 @@ static FrStatus answer(void *data, const FrLquery *queries, size_t count,
         }
         switch (query->symbol) {
         case 'R':
-            answer_direction(simple, query);
+            fr_lquery_bend(query, simple->light);
             break;
         case 'D':
             query->parameters[0] = distance_to(simple, query->position);

@@ -289,11 +289,15 @@ FrStatus fr_lderivation_plant(FrLderivation *derivation, const FrContext *contex
     // In papers what an environment tells is drawn; cpfg asks no more after the last step.
     FrStatus status =
         derivation->system->is_paper ? fr_lderivation_ask(derivation, context) : FR_OK;
-    if (status != FR_OK) {
-        return status;
-    }
+    return status == FR_OK ? fr_lderivation_draw(derivation, context, plant, drawn) : status;
+}
+
+FrStatus fr_lderivation_draw(FrLderivation *derivation, const FrContext *context, FrPlant **plant,
+                             FrLdrawn *drawn) {
+    *plant = NULL;
     FrLbuilder *builder = fr_lbuilder_new(derivation, context);
     FrLturtle turtle;
+    FrStatus status = FR_OK;
     fr_lturtle_init(&turtle, derivation, builder, context);
     if (has_homomorphism(derivation->system)) {
         status = fr_lderive_interpret(derivation, take_module, &turtle.is_raw, &turtle, context);

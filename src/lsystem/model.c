@@ -22,6 +22,7 @@ struct FrLmodel {
     GArray *values;  ///< FrLvalue, names owned
     GArray *numbers; ///< FrNumber, one for each
     FrMaterial *axes, *organs;
+    GPtrArray *colours; ///< FrMaterial *
     FrLview *view;
     FrLsystem *system;
     FrLsimple simple;
@@ -44,6 +45,10 @@ static void number_clear(gpointer data) {
     fr_number_clear(data);
 }
 
+static void material_unref(void *material) {
+    fr_material_unref(material);
+}
+
 FrLmodel *fr_lmodel_new(const FrLsystemParams *params) {
     FrLmodel *model = g_new0(FrLmodel, 1);
     fr_params_copy(&table, &model->params, params);
@@ -51,6 +56,7 @@ FrLmodel *fr_lmodel_new(const FrLsystemParams *params) {
     g_array_set_clear_func(model->values, value_clear);
     model->numbers = g_array_new(FALSE, FALSE, sizeof(FrNumber));
     g_array_set_clear_func(model->numbers, number_clear);
+    model->colours = g_ptr_array_new_with_free_func(material_unref);
     float length = glms_vec3_norm(params->light);
     vec3s up = {{0, 0, 1}};
     model->simple = (FrLsimple){
@@ -71,6 +77,7 @@ void fr_lmodel_free(FrLmodel *model) {
         fr_lview_free(model->view);
         fr_material_unref(model->axes);
         fr_material_unref(model->organs);
+        g_ptr_array_unref(model->colours);
         g_array_unref(model->values);
         g_array_unref(model->numbers);
         fr_params_clear(&table, &model->params);
@@ -116,6 +123,14 @@ void fr_lmodel_set_print(FrLmodel *model, void (*print)(void *user, const char *
 void fr_lmodel_set_materials(FrLmodel *model, FrMaterial *axes, FrMaterial *organs) {
     model->axes = axes == NULL ? NULL : fr_material_ref(axes);
     model->organs = organs == NULL ? NULL : fr_material_ref(organs);
+}
+
+void fr_lmodel_set_colours(FrLmodel *model, FrMaterial *const *materials, size_t count) {
+    FR_ASSERT(count <= 255);
+    g_ptr_array_set_size(model->colours, 0);
+    for (size_t i = 0; i < count; i++) {
+        g_ptr_array_add(model->colours, fr_material_ref(materials[i]));
+    }
 }
 
 // ---- reading ----------------------------------------------------------------------------------
@@ -225,6 +240,8 @@ FrLsettings fr_lmodel_settings(const FrLmodel *model) {
     settings.unit = model->params.unit;
     settings.axes = model->axes;
     settings.organs = model->organs;
+    settings.colours = (FrMaterial *const *)(void *)model->colours->pdata;
+    settings.colour_count = model->colours->len;
     settings.print = model->print;
     settings.print_user = model->print_user;
     return settings;

@@ -178,7 +178,7 @@ void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const double 
             uint32_t shape = add_mesh(builder, c, part, extent, (double[3]){1, 1, 1});
             if (shape != FR_NONE) {
                 fr_lbuilder_organ(builder, pose, pose->position, shape, extent * unit,
-                                  builder->leaf);
+                                  fr_lbuilder_material(builder, pose, builder->leaf));
             }
         }
     }
@@ -233,7 +233,7 @@ void fr_lbuilder_surface(FrLbuilder *builder, const FrLpose *pose, const FrLsurf
             uint32_t shape = add_mesh(builder, c, part, extent, stretch);
             if (shape != FR_NONE) {
                 fr_lbuilder_organ(builder, pose, pose->position, shape, extent * size,
-                                  builder->leaf);
+                                  fr_lbuilder_material(builder, pose, builder->leaf));
             }
         }
     }
@@ -269,7 +269,8 @@ static void include_around(FrLbuilder *builder, const double at[3], double radiu
 void fr_lbuilder_sphere(FrLbuilder *builder, const FrLpose *pose, double diameter) {
     builder->drawn.spheres++;
     include_around(builder, pose->position, diameter / 2, diameter / 2);
-    add_primitive(builder, pose, diameter, FR_SHAPE_SPHERE, builder->leaf);
+    add_primitive(builder, pose, diameter, FR_SHAPE_SPHERE,
+                  fr_lbuilder_material(builder, pose, builder->leaf));
 }
 
 // cpfg counts discs as if they faced z, those that face the viewer at z 0.
@@ -278,5 +279,6 @@ void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter,
     double z = faces_viewer ? 0 : pose->position[2];
     builder->drawn.discs++;
     include_around(builder, (double[3]){pose->position[0], pose->position[1], z}, diameter / 2, 0);
-    add_primitive(builder, pose, diameter, FR_SHAPE_CIRCLE, builder->leaf);
+    add_primitive(builder, pose, diameter, FR_SHAPE_CIRCLE,
+                  fr_lbuilder_material(builder, pose, builder->leaf));
 }

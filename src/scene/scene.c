@@ -1,4 +1,5 @@
 /// A document built: each plant once for every seed it stands with.
+#include "scene/growing.h"
 #include "scene/obstacles.h"
 #include "scene/varied.h"
 
@@ -13,6 +14,7 @@ typedef struct Build {
     GHashTable *varied;      ///< FrPlantDef * → FrVaried *
     int64_t seed;            ///< < 0: as the document says
     uint64_t bytes;
+    FrGrowing *growing;
 } Build;
 
 static void clear_plant(void *data) {
@@ -35,6 +37,7 @@ void fr_scene_free(FrScene *scene) {
     }
     g_array_unref(scene->plants);
     g_array_unref(scene->stands);
+    g_clear_pointer(&scene->steps, g_array_unref);
     g_ptr_array_unref(scene->views);
     g_free(scene->name);
     g_free(scene);
@@ -105,6 +108,22 @@ static FrStatus use_plant(Build *build, const FrPlantDef *definition, int64_t ow
     return build_plant(build, definition, seed);
 }
 
+/// Adds a plant where `stand` says.
+static FrStatus stand_plant(Build *build, const FrPlantDef *definition, int64_t own_seed,
+                            FrStand *stand) {
+    if (fr_growing_is_wanted(build->scene, definition)) {
+        int64_t seed = seed_of(build, own_seed);
+        seed = seed < 0 && definition->has_seed ? (int64_t)definition->seed : seed;
+        return fr_growing_add(build->growing, build->scene, definition, seed, stand,
+                              build->context);
+    }
+    FrStatus status = use_plant(build, definition, own_seed, &stand->plant);
+    if (status == FR_OK) {
+        g_array_append_val(build->scene->stands, *stand);
+    }
+    return status;
+}
+
 static FrStatus build_place(Build *build, const FrPlace *place) {
     const FrPlantDef *definition =
         place->plant == NULL ? NULL : g_hash_table_lookup(build->definitions, place->plant);
@@ -119,11 +138,7 @@ static FrStatus build_place(Build *build, const FrPlace *place) {
     FrStand stand = {.at = {(double)place->at.x, (double)place->at.y, (double)place->at.z},
                      .turn = place->turn,
                      .scale = place->scale};
-    FrStatus status = use_plant(build, definition, place->seed, &stand.plant);
-    if (status == FR_OK) {
-        g_array_append_val(build->scene->stands, stand);
-    }
-    return status;
+    return stand_plant(build, definition, place->seed, &stand);
 }
 
 /// Without places: the first plant at the origin.
@@ -135,11 +150,7 @@ static FrStatus build_first(Build *build) {
         return FR_ERR_DOCUMENT;
     }
     FrStand stand = {.scale = 1};
-    FrStatus status = use_plant(build, g_ptr_array_index(plants, 0), -1, &stand.plant);
-    if (status == FR_OK) {
-        g_array_append_val(build->scene->stands, stand);
-    }
-    return status;
+    return stand_plant(build, g_ptr_array_index(plants, 0), -1, &stand);
 }
 
 static FrStatus build_places(Build *build) {
@@ -181,6 +192,7 @@ static FrScene *new_scene(const FrDocument *document, int64_t seed) {
     scene->plants = g_array_new(FALSE, FALSE, sizeof(FrScenePlant));
     g_array_set_clear_func(scene->plants, clear_plant);
     scene->stands = g_array_new(FALSE, FALSE, sizeof(FrStand));
+    scene->steps = g_array_new(FALSE, FALSE, sizeof(FrSceneStep));
     scene->views = g_ptr_array_new();
     const GPtrArray *views = fr_document_views(document);
     for (guint i = 0; i < views->len; i++) {
@@ -210,7 +222,8 @@ FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContex
                    .definitions = g_hash_table_new(g_str_hash, g_str_equal),
                    .built = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
                    .varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied),
-                   .seed = seed};
+                   .seed = seed,
+                   .growing = fr_growing_new()};
     const GPtrArray *plants = fr_document_plants(document);
     for (guint i = 0; i < plants->len; i++) {
         FrPlantDef *definition = g_ptr_array_index(plants, i);
@@ -220,6 +233,10 @@ FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContex
     if (status == FR_OK) {
         status = build_obstacles(&build);
     }
+    if (status == FR_OK) {
+        status = fr_growing_run(build.growing, build.scene, context);
+    }
+    fr_growing_free(build.growing);
     g_hash_table_unref(build.definitions);
     g_hash_table_unref(build.built);
     g_hash_table_unref(build.varied);

@@ -1,0 +1,24 @@
+/// @file lighting.h
+/// The light of a scene: its plants and obstacles as what stands in the way, its sun, sky and
+/// lamps as what shines, and the backend that its document asks for.
+#pragma once
+
+#include "frond/scene.h"
+
+typedef struct FrLighting FrLighting;
+
+/// The scene's `<light>`, or the defaults. The document must outlive it.
+FR_API FR_MUST_USE FrStatus fr_lighting_new(const FrScene *scene, const FrContext *context,
+                                            FrLighting **lighting);
+FR_API void fr_lighting_free(FrLighting *lighting);
+/// Lights the scene as it is now. Plants that are the same objects as before are not meshed anew;
+/// a changed plant must be a new one. Plants of the scene that are NULL are not there.
+FR_API FR_MUST_USE FrStatus fr_lighting_update(FrLighting *lighting, const FrScene *scene,
+                                               const FrContext *context);
+/// Answers for points of the world. fr_lighting_update() came first.
+FR_API FR_MUST_USE FrStatus fr_lighting_query(FrLighting *lighting, const vec3s *points,
+                                              size_t count, const FrContext *context,
+                                              FrLightAnswer *answers);
+/// The points asked for are done with.
+FR_API void fr_lighting_forget(FrLighting *lighting);
+FR_API FrLightStats fr_lighting_stats(const FrLighting *lighting);

@@ -1,0 +1,19 @@
+/// @file growing.h
+/// Plants of a scene that grow together, step by step, in each other's light. Private to scene.
+#pragma once
+
+#include "frond/lighting.h"
+
+typedef struct FrGrowing FrGrowing;
+
+/// True for what answers light: an L-system with open symbols in a scene that has a `<light>`.
+bool fr_growing_is_wanted(const FrScene *scene, const FrPlantDef *definition);
+FrGrowing *fr_growing_new(void);
+void fr_growing_free(FrGrowing *growing);
+/// A plant that begins where `stand` is; it becomes the last of the scene's plants, empty as yet.
+/// `seed` < 0: what its text says.
+FR_MUST_USE FrStatus fr_growing_add(FrGrowing *growing, FrScene *scene,
+                                    const FrPlantDef *definition, int64_t seed,
+                                    const FrStand *stand, const FrContext *context);
+/// Grows them all to their ends.
+FR_MUST_USE FrStatus fr_growing_run(FrGrowing *growing, FrScene *scene, const FrContext *context);

@@ -1,0 +1,164 @@
+/// L-systems that grow in the light of their scene.
+#include "frond/scene.h"
+
+#include <cglm/struct.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct Built {
+    FrDocument *document;
+    FrScene *scene;
+} Built;
+
+static Built build_with(const char *text, FrContext context) {
+    Built built = {0};
+    context.diags = fr_diags_new();
+    FrSource *source = fr_source_new("grow.frond", text, strlen(text));
+    FrStatus status = fr_document_parse(source, NULL, &context, &built.document);
+    if (status == FR_OK) {
+        status = fr_scene_build(built.document, -1, &context, &built.scene);
+    }
+    GString *said = g_string_new(NULL);
+    fr_diags_print(context.diags, said);
+    g_test_message("%s", said->str);
+    g_string_free(said, TRUE);
+    g_assert_cmpint(status, ==, FR_OK);
+    fr_source_unref(source);
+    fr_diags_free(context.diags);
+    return built;
+}
+
+static Built build(const char *text) {
+    return build_with(text, fr_context_default());
+}
+
+static void forget(Built *built) {
+    fr_scene_free(built->scene);
+    fr_document_free(built->document);
+}
+
+static const FrPlant *plant_at(const Built *built, guint index) {
+    return g_array_index(built->scene->plants, FrScenePlant, index).plant;
+}
+
+#define DOCUMENT(lsystem, scene)                                                                   \
+    "<frond version='1'><plant id='p'><lsystem><![CDATA[\n" lsystem                                \
+    "\n]]></lsystem></plant><scene ground='no' sun-strength='0' sky-strength='0'>" scene           \
+    "</scene></frond>"
+#define LAMP "<lamp at='8, 0, 4' power='100'/>"
+// L-system 1 of the paper, word for word but for the length of F.
+#define BENDING                                                                                    \
+    "derivation length: 30\nw : A\np1 : A -> F(0.2)R(?,8)A\np2 : R(r,p) -> \\(r)&(p)/(r)"
+
+/// R12: every bend is at most 8 degrees, and in the end the branch points to the lamp.
+static void test_bending(void) {
+    Built built = build(DOCUMENT(BENDING, "<light near='0.1'/>" LAMP "<place plant='p'/>"));
+    const FrPlant *plant = plant_at(&built, 0);
+    g_assert_cmpuint(plant->nodes.count, ==, 30);
+    float sum = 0;
+    for (uint32_t i = 1; i < 30; i++) {
+        float bend = glms_vec3_angle(fr_frame_heading(plant->nodes.frame[i - 1]),
+                                     fr_frame_heading(plant->nodes.frame[i]));
+        g_assert_cmpfloat(glm_deg(bend), <, 8.05f);
+        sum += bend;
+    }
+    g_assert_cmpfloat(glm_deg(sum), >, 30);
+    vec3s way = glms_vec3_sub((vec3s){{8, 0, 4}}, plant->nodes.position[28]);
+    float off = glms_vec3_angle(way, fr_frame_heading(plant->nodes.frame[29]));
+    g_assert_cmpfloat(glm_deg(off), <, 3);
+    g_assert_cmpuint(built.scene->steps->len, ==, 30);
+    forget(&built);
+}
+
+/// Light is that of the world: turned and scaled plants lean to the same lamp.
+static void test_stands(void) {
+    Built built = build(DOCUMENT(BENDING, "<light near='0.1'/>" LAMP "<place plant='p'/>"
+                                          "<place plant='p' turn='90' scale='0.5'/>"));
+    g_assert_cmpuint(built.scene->plants->len, ==, 2);
+    const FrPlant *turned = plant_at(&built, 1);
+    vec3s heading = fr_frame_heading(turned->nodes.frame[29]);
+    vec3s world = glms_vec3_rotate(heading, GLM_PI_2f, (vec3s){{0, 0, 1}});
+    g_assert_cmpfloat(world.x, >, 0.8f);
+    g_assert_cmpfloat(fabsf(world.y), <, 0.05f);
+    forget(&built);
+}
+
+// R14 and R15: long internodes in the dark, a flower (a sphere) only where there is light.
+#define SHADE                                                                                      \
+    "derivation length: 6\nh(i) = 1 - 0.8*i\nw : I(?)A\n"                                          \
+    "p1 : I(i) < A : i < 0.5 -> F(h(i))I(?)A\np2 : I(i) < A : i >= 0.5 -> F(h(i))@O(0.1)"
+
+static void test_shade(void) {
+    Built built = build(DOCUMENT(SHADE, "<light near='0.01' relative='yes' reference='0, 0, 1'/>"
+                                        "<lamp at='0, 0, 50' power='1000'/>"
+                                        "<obstacle at='32, 0, 20' size='40, 20, 0.1'/>"
+                                        "<place plant='p'/><place plant='p' at='40, 0, 0'/>"));
+    const FrPlant *lit = plant_at(&built, 0), *dark = plant_at(&built, 1);
+    g_assert_cmpuint(lit->nodes.count, ==, 1);
+    g_assert_cmpuint(lit->organs.count, ==, 1);
+    g_assert_cmpfloat(lit->nodes.length[0], <, 0.3f);
+    g_assert_cmpuint(dark->nodes.count, ==, 6);
+    g_assert_cmpuint(dark->organs.count, ==, 0);
+    g_assert_cmpfloat(dark->nodes.length[0], ==, 1);
+    forget(&built);
+}
+
+/// A plant shades the one below it from the step on in which it spreads over it.
+static void test_neighbours(void) {
+    Built built =
+        build(DOCUMENT("derivation length: 3\nw : I(?)A\np1 : I(i) < A : i > 0.5 -> "
+                       "F(0.2)[&(90)f(-2)+(90)f(2)-(90){.f(4).-(90)f(4).-(90)f(4).}]I(?)A",
+                       "<light near='0.01' relative='yes' reference='0, 9, 1'/>"
+                       "<lamp at='0, 0, 50' power='1000'/><place plant='p' at='0, 0, 3'/>"
+                       "<place plant='p' at='0.5, 0, 0'/>"));
+    g_assert_cmpuint(plant_at(&built, 0)->nodes.count, ==, 3);
+    g_assert_cmpuint(plant_at(&built, 1)->nodes.count, ==, 1);
+    forget(&built);
+}
+
+#define CROWD(by)                                                                                  \
+    DOCUMENT("derivation length: 5\nw : I(?)A\np1 : I(i) < A -> "                                  \
+             "F(0.1+0.1*i)R(?,20)[+(40)I(?)A]/(90)[-(50)I(?)A]I(?)A\np2 : R(r,p) -> "              \
+             "\\(r)&(p)/(r)",                                                                      \
+             "<light by='" by "' photons='3000' distance='0.3' cell='0.1'/>" LAMP                  \
+             "<place plant='p'/><place plant='p' at='0.4, 0.3, 0'/>"                               \
+             "<obstacle at='0, 0, -0.2' size='3, 3, 0.1'/>")
+
+static void test_threads(void) {
+    static const char *const texts[] = {CROWD("views"), CROWD("density"), CROWD("shadows")};
+    static const int threads[] = {1, 2, 3, 8};
+    for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
+        FrDigest first = 0;
+        for (size_t i = 0; i < G_N_ELEMENTS(threads); i++) {
+            FrContext context = fr_context_default();
+            context.pool = fr_pool_new(threads[i]);
+            Built built = build_with(texts[k], context);
+            FrDigest digest = fr_scene_digest(built.scene);
+            first = i == 0 ? digest : first;
+            g_assert_cmpuint(digest, ==, first);
+            g_assert_cmpuint(plant_at(&built, 0)->nodes.count, >, 100);
+            forget(&built);
+            fr_pool_free(context.pool);
+        }
+    }
+}
+
+/// Without a `<light>` the L-system's own environment answers, and equal plants are one.
+static void test_without_light(void) {
+    Built built =
+        build(DOCUMENT(BENDING, LAMP "<place plant='p'/><place plant='p' at='1, 0, 0'/>"));
+    g_assert_cmpuint(built.scene->plants->len, ==, 1);
+    g_assert_cmpuint(built.scene->steps->len, ==, 0);
+    forget(&built);
+}
+
+int main(int argc, char **argv) {
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/scene/growing/a branch bends to the lamp, by so much a step", test_bending);
+    g_test_add_func("/scene/growing/turned and scaled plants lean to the same lamp", test_stands);
+    g_test_add_func("/scene/growing/shade makes long internodes and no flowers", test_shade);
+    g_test_add_func("/scene/growing/plants shade each other", test_neighbours);
+    g_test_add_func("/scene/growing/the bits are the same for any number of threads", test_threads);
+    g_test_add_func("/scene/growing/without a light everything is as before", test_without_light);
+    return g_test_run();
+}
