@@ -36,4 +36,5 @@ void bench_lsystem(void);
 void bench_skin(void);
 void bench_variation(void);
 void bench_nurbs(void);
+void bench_density(void);
 void bench_io(void);

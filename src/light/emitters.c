@@ -148,16 +148,30 @@ FrDigest fr_emitters_digest(const FrEmitters *emitters) {
     return emitters->digest;
 }
 
-/// Deals the binary digits of s out to `count` coordinates in turn; what is left of them is random.
+/// Every second of the lower bits of x, brought together.
+static uint64_t every_second(uint64_t x) {
+    x &= UINT64_C(0x5555555555555555);
+    x = (x | x >> 1) & UINT64_C(0x3333333333333333);
+    x = (x | x >> 2) & UINT64_C(0x0f0f0f0f0f0f0f0f);
+    x = (x | x >> 4) & UINT64_C(0x00ff00ff00ff00ff);
+    x = (x | x >> 8) & UINT64_C(0x0000ffff0000ffff);
+    return (x | x >> 16) & UINT64_C(0x00000000ffffffff);
+}
+
+/// Deals the binary digits of s out to two or four coordinates in turn; what is left of those is
+/// random.
 static void deal(double s, int count, const double jitter[4], double out[4]) {
     uint64_t digits = (uint64_t)(s * 0x1p52);
-    uint32_t part[4] = {0};
-    int places = 52 / count;
-    for (int i = 0; i < places * count; i++) {
-        part[i % count] = part[i % count] << 1 | (uint32_t)(digits >> (51 - i) & 1);
+    uint64_t part[4] = {every_second(digits >> 1), every_second(digits)};
+    if (count == 4) {
+        part[3] = every_second(part[1]);
+        part[1] = every_second(part[1] >> 1);
+        part[2] = every_second(part[0]);
+        part[0] = every_second(part[0] >> 1);
     }
+    double scale = count == 4 ? 0x1p-13 : 0x1p-26;
     for (int i = 0; i < count; i++) {
-        out[i] = MIN(ldexp(part[i] + jitter[i], -places), 0x1.fffffffffffffp-1);
+        out[i] = MIN(((double)part[i] + jitter[i]) * scale, 0x1.fffffffffffffp-1);
     }
 }
 

@@ -7,13 +7,13 @@
 //
 // A ball touches at most 27 cells of more than half its width. A ray that passes through several
 // of them is counted in the one where it comes nearest to the point. Each cell's rays are brought
-// together once for all points around it and sifted in floats with some slack; what is left is
-// tested in doubles.
+// together once for all points around it and judged in floats; where rounding could decide, in
+// doubles.
 #include "light/estimate.h"
 
 #include <string.h>
 
-enum { POINTS_AT_ONCE = 2048 };
+enum { POINTS_AT_ONCE = 16384 };
 
 bool fr_ball_is_inside(const FrOctree *tree, const double point[3], double radius) {
     for (int c = 0; c < 3; c++) {
@@ -97,19 +97,22 @@ FrLightAnswer fr_tally_answer(const FrTally *tally, const FrEstimator *how) {
     return answer;
 }
 
+enum { RAYS_AT_ONCE = 256 };
+
 /// The rays of a cell side by side, relative to its middle: each as the place where it comes
-/// nearest to the middle, a direction, and how far it runs to both sides.
+/// nearest to the middle, a direction, how far it runs to both sides, and its direction in parts
+/// of FR_TALLY_UNIT.
 typedef struct Bundle {
     float *at[3], *direction[3], *back, *ahead;
-    float *square; ///< of the distance to a point
-    float *memory;
+    int32_t *flow[3];
+    void *memory;
     const uint32_t *slots;
     uint32_t count;
-    double middle[3];
+    double middle[3], width;
 } Bundle;
 
 static Bundle new_bundle(uint32_t most) {
-    Bundle bundle = {.memory = g_new(float, 9 * (size_t)most)};
+    Bundle bundle = {.memory = g_malloc_n(most, 8 * sizeof(float) + 3 * sizeof(int32_t))};
     float *next = bundle.memory;
     for (int c = 0; c < 3; c++, next += 2 * (size_t)most) {
         bundle.at[c] = next;
@@ -117,16 +120,18 @@ static Bundle new_bundle(uint32_t most) {
     }
     bundle.back = next;
     bundle.ahead = next + most;
-    bundle.square = next + 2 * (size_t)most;
+    for (int c = 0; c < 3; c++) {
+        bundle.flow[c] = (int32_t *)(void *)(next + (2 + (size_t)c) * most);
+    }
     return bundle;
 }
 
 static void gather(Bundle *bundle, const FrOctree *tree, const FrCell *cell, const FrPaths *paths) {
-    double width = fr_octree_cell_width(tree, cell->level);
-    bundle->slots = (const uint32_t *)(const void *)cell->rays->data;
-    bundle->count = cell->rays->len;
+    bundle->width = fr_octree_cell_width(tree, cell->level);
+    bundle->slots = cell->rays.at;
+    bundle->count = cell->rays.count;
     for (int c = 0; c < 3; c++) {
-        bundle->middle[c] = tree->min[c] + (cell->at[c] + 0.5) * width;
+        bundle->middle[c] = tree->min[c] + (cell->at[c] + 0.5) * bundle->width;
     }
     for (uint32_t i = 0; i < bundle->count; i++) {
         const FrRay *ray = &paths->rays[bundle->slots[i]];
@@ -136,32 +141,91 @@ static void gather(Bundle *bundle, const FrOctree *tree, const FrCell *cell, con
         }
         along = along < 0.0 ? 0.0 : (along > reach ? reach : along);
         for (int c = 0; c < 3; c++) {
-            double place = (double)ray->origin[c] + along * (double)ray->direction[c];
+            double direction = (double)ray->direction[c];
+            double place = (double)ray->origin[c] + along * direction;
             bundle->at[c][i] = (float)(place - bundle->middle[c]);
             bundle->direction[c][i] = ray->direction[c];
+            bundle->flow[c][i] = (int32_t)(direction * FR_TALLY_UNIT);
         }
         bundle->back[i] = (float)-along;
         bundle->ahead[i] = (float)(reach - along);
     }
 }
 
-// Squares of the distances of all rays to a place relative to the middle.
-static void measure(Bundle *bundle, float x, float y, float z) {
-    const float *restrict ax = bundle->at[0], *restrict ay = bundle->at[1];
-    const float *restrict az = bundle->at[2], *restrict dx = bundle->direction[0];
-    const float *restrict dy = bundle->direction[1], *restrict dz = bundle->direction[2];
-    const float *restrict back = bundle->back, *restrict ahead = bundle->ahead;
-    float *restrict square = bundle->square;
-    for (uint32_t i = 0; i < bundle->count; i++) {
+/// A point as a bundle sees it. What is nearer than `sure` and comes nearest within the cell by
+/// that much counts; what is farther than `most` does not; between them rounding could decide.
+typedef struct Sieve {
+    float at[3];
+    float sure, most;           ///< squares of distances
+    float sure_half, most_half; ///< of the cell
+} Sieve;
+
+static Sieve sieve_for(const Bundle *bundle, const double point[3], double radius) {
+    // Far more than the rounding of floats this near to the middle.
+    double slack = 1e-4 * bundle->width;
+    Sieve sieve = {.sure = (float)((radius - slack) * (radius - slack)),
+                   .most = (float)((radius + slack) * (radius + slack)),
+                   .sure_half = (float)(0.5 * bundle->width - slack),
+                   .most_half = (float)(0.5 * bundle->width + slack)};
+    for (int c = 0; c < 3; c++) {
+        sieve.at[c] = (float)(point[c] - bundle->middle[c]);
+    }
+    return sieve;
+}
+
+// 2: surely within, 1: in doubt, 0: surely not, for some rays of the bundle; no branches, so that
+// several are judged at once.
+static void judge(const Bundle *bundle, const Sieve *sieve, uint32_t begin, uint32_t count,
+                  int32_t *restrict verdict) {
+    const float *restrict ax = bundle->at[0] + begin, *restrict ay = bundle->at[1] + begin;
+    const float *restrict az = bundle->at[2] + begin, *restrict dx = bundle->direction[0] + begin;
+    const float *restrict dy = bundle->direction[1] + begin;
+    const float *restrict dz = bundle->direction[2] + begin;
+    const float *restrict back = bundle->back + begin, *restrict ahead = bundle->ahead + begin;
+    const float x = sieve->at[0], y = sieve->at[1], z = sieve->at[2];
+    const float sure = sieve->sure, most = sieve->most;
+    const float sure_half = sieve->sure_half, most_half = sieve->most_half;
+    for (uint32_t i = 0; i < count; i++) {
         float px = x - ax[i], py = y - ay[i], pz = z - az[i];
         float along = px * dx[i] + py * dy[i] + pz * dz[i];
         along = along > back[i] ? along : back[i];
         along = along < ahead[i] ? along : ahead[i];
-        px -= along * dx[i];
-        py -= along * dy[i];
-        pz -= along * dz[i];
-        square[i] = px * px + py * py + pz * pz;
+        float qx = ax[i] + along * dx[i], qy = ay[i] + along * dy[i], qz = az[i] + along * dz[i];
+        px = x - qx;
+        py = y - qy;
+        pz = z - qz;
+        float square = px * px + py * py + pz * pz;
+        qx = fabsf(qx);
+        qy = fabsf(qy);
+        qz = fabsf(qz);
+        float out = qx > qy ? qx : qy;
+        out = out > qz ? out : qz;
+        int32_t may = (square <= most) & (out <= most_half);
+        int32_t must = (square <= sure) & (out <= sure_half);
+        verdict[i] = may + must;
     }
+}
+
+// Adds up those that are surely within; returns how many are in doubt.
+static int32_t add_sure(const Bundle *bundle, uint32_t begin, uint32_t count,
+                        const int32_t *restrict verdict, FrTally *tally) {
+    const int32_t *restrict fx = bundle->flow[0] + begin, *restrict fy = bundle->flow[1] + begin;
+    const int32_t *restrict fz = bundle->flow[2] + begin;
+    int32_t sure = 0, doubt = 0, x = 0, y = 0, z = 0; // of RAYS_AT_ONCE units at most
+    for (uint32_t i = 0; i < count; i++) {
+        int32_t mask = -(verdict[i] >> 1);
+        sure -= mask;
+        doubt += verdict[i] & 1;
+        x += fx[i] & mask;
+        y += fy[i] & mask;
+        z += fz[i] & mask;
+    }
+    tally->count += sure;
+    tally->weight += sure * (int64_t)FR_TALLY_UNIT;
+    tally->flow[0] += x;
+    tally->flow[1] += y;
+    tally->flow[2] += z;
+    return doubt;
 }
 
 /// A point and a cell that its ball touches.
@@ -182,27 +246,39 @@ typedef struct Job {
     const uint32_t *outside; ///< points outside of the tree
 } Job;
 
-static void tally_pair(const Job *job, const FrCell *cell, Bundle *bundle, Pair *pair) {
+static void test_exactly(const Job *job, const FrCell *cell, const FrRay *ray,
+                         const double point[3], FrTally *tally) {
     const double radius = job->how->distance;
-    const double inverse = 1.0 / fr_octree_cell_width(job->tree, cell->level);
-    double point[3], local[3];
+    double reach = fr_octree_reach(job->tree, ray);
+    FrApproach approach = fr_ray_approach(ray, reach, point);
+    if (approach.square <= radius * radius &&
+        fr_cell_holds(job->tree, 1.0 / fr_octree_cell_width(job->tree, cell->level), cell->at,
+                      approach.at)) {
+        fr_tally_add(tally, job->how, ray, reach, point);
+    }
+}
+
+static void tally_pair(const Job *job, const FrCell *cell, const Bundle *bundle, Pair *pair) {
+    double point[3];
     for (int c = 0; c < 3; c++) {
         point[c] = (double)job->points[pair->point].raw[c];
-        local[c] = point[c] - bundle->middle[c];
     }
-    measure(bundle, (float)local[0], (float)local[1], (float)local[2]);
-    // Rounding in floats is far below a hundredth of the cell.
-    float within = (float)(1.02 * radius * radius);
-    for (uint32_t i = 0; i < bundle->count; i++) {
-        if (bundle->square[i] > within) {
+    Sieve sieve = sieve_for(bundle, point, job->how->distance);
+    if (job->how->kind == FR_ESTIMATE_TRACK) {
+        sieve.sure = -1.0f; // lengths are always computed exactly
+    }
+    int32_t verdict[RAYS_AT_ONCE];
+    for (uint32_t begin = 0; begin < bundle->count; begin += RAYS_AT_ONCE) {
+        uint32_t count = MIN(bundle->count - begin, (uint32_t)RAYS_AT_ONCE);
+        judge(bundle, &sieve, begin, count, verdict);
+        if (add_sure(bundle, begin, count, verdict, &pair->tally) == 0) {
             continue;
         }
-        const FrRay *ray = &job->paths->rays[bundle->slots[i]];
-        double reach = fr_octree_reach(job->tree, ray);
-        FrApproach approach = fr_ray_approach(ray, reach, point);
-        if (approach.square <= radius * radius &&
-            fr_cell_holds(job->tree, inverse, cell->at, approach.at)) {
-            fr_tally_add(&pair->tally, job->how, ray, reach, point);
+        for (uint32_t i = 0; i < count; i++) {
+            if (verdict[i] == 1) {
+                test_exactly(job, cell, &job->paths->rays[bundle->slots[begin + i]], point,
+                             &pair->tally);
+            }
         }
     }
 }
@@ -252,7 +328,7 @@ static uint32_t find_runs(const FrOctree *tree, const GArray *pairs, GArray *run
             g_array_append_val(runs, i);
             if (i < pairs->len) {
                 uint32_t cell = g_array_index(pairs, Pair, i).cell;
-                longest = MAX(longest, g_array_index(tree->cells, FrCell, cell).rays->len);
+                longest = MAX(longest, g_array_index(tree->cells, FrCell, cell).rays.count);
             }
         }
     }

@@ -21,7 +21,7 @@ typedef struct FrEstimator {
     uint32_t level; ///< of the cells that are searched for `distance`
 } FrEstimator;
 
-#define FR_TALLY_UNIT 0x1p32
+#define FR_TALLY_UNIT 0x1p20
 
 typedef struct FrTally {
     int64_t count;   ///< rays

@@ -94,8 +94,8 @@ static void search_cell(const Job *job, const uint32_t at[3], const double point
     FR_ASSERT(index != FR_NONE);
     const FrCell *cell = &g_array_index(job->tree->cells, FrCell, index);
     double inverse = 1.0 / fr_octree_cell_width(job->tree, job->level);
-    for (guint i = 0; i < cell->rays->len; i++) {
-        uint32_t slot = g_array_index(cell->rays, uint32_t, i);
+    for (uint32_t i = 0; i < cell->rays.count; i++) {
+        uint32_t slot = cell->rays.at[i];
         const FrRay *ray = &job->paths->rays[slot];
         FrApproach approach = fr_ray_approach(ray, fr_octree_reach(job->tree, ray), point);
         if (approach.square <= job->radius * job->radius &&

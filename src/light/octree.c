@@ -18,10 +18,7 @@ static FrCell *cell_at(const FrOctree *tree, uint32_t cell) {
 
 static void drop_cells(FrOctree *tree) {
     for (guint i = 0; i < tree->cells->len; i++) {
-        GArray *rays = cell_at(tree, i)->rays;
-        if (rays != NULL) {
-            g_array_unref(rays);
-        }
+        g_free(cell_at(tree, i)->rays.at);
     }
     g_array_set_size(tree->cells, 0);
     g_array_set_size(tree->free_cells, 0);
@@ -81,7 +78,6 @@ static uint32_t make_child(FrOctree *tree, uint32_t parent, int which) {
     for (int c = 0; c < 3; c++) {
         made->at[c] = above->at[c] << 1 | (uint32_t)(which >> c & 1);
     }
-    made->rays = g_array_new(FALSE, FALSE, sizeof(uint32_t));
     above->child[which] = cell;
     g_array_append_val(tree->unfilled, cell);
     return cell;
@@ -114,14 +110,30 @@ static Box box_of(const FrOctree *tree, const FrCell *cell) {
     return box;
 }
 
-// A segment and a box, by separating axes (Gottschalk, Lin, Manocha 1996); true where in doubt.
-static inline bool passes(const Box *box, const FrRay *ray, double reach) {
-    double w[3], m[3], a[3];
+/// A segment made ready for tests against boxes.
+typedef struct Line {
+    double middle[3], half[3]; ///< half: from the middle to an end, without sign
+    double way[3], size[3];    ///< direction, with and without sign
+} Line;
+
+static inline Line line_of(const FrRay *ray, double reach) {
+    Line line;
     for (int c = 0; c < 3; c++) {
-        w[c] = (double)ray->direction[c];
-        a[c] = fabs(w[c]);
-        m[c] = (double)ray->origin[c] - box->middle[c] + 0.5 * reach * w[c];
-        if (fabs(m[c]) > box->half + 0.5 * reach * a[c]) {
+        line.way[c] = (double)ray->direction[c];
+        line.size[c] = fabs(line.way[c]);
+        line.middle[c] = (double)ray->origin[c] + 0.5 * reach * line.way[c];
+        line.half[c] = 0.5 * reach * line.size[c];
+    }
+    return line;
+}
+
+// A segment and a box, by separating axes (Gottschalk, Lin, Manocha 1996); true where in doubt.
+static inline bool passes(const Box *box, const Line *line) {
+    const double *w = line->way, *a = line->size;
+    double m[3];
+    for (int c = 0; c < 3; c++) {
+        m[c] = line->middle[c] - box->middle[c];
+        if (fabs(m[c]) > box->half + line->half[c]) {
             return false;
         }
     }
@@ -130,55 +142,101 @@ static inline bool passes(const Box *box, const FrRay *ray, double reach) {
            fabs(m[0] * w[1] - m[1] * w[0]) <= box->half * (a[0] + a[1]);
 }
 
-// Sieves the parent's rays; below the root, which stands for all.
-static void fill_cell(const FrOctree *tree, FrCell *cell, const FrPaths *paths) {
-    Box box = box_of(tree, cell);
-    const GArray *above = cell_at(tree, cell->parent)->rays;
-    uint32_t count = above != NULL ? above->len : paths->count;
-    g_array_set_size(cell->rays, 0);
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t slot = above != NULL ? g_array_index(above, uint32_t, i) : i;
-        const FrRay *ray = &paths->rays[slot];
-        if (ray->photon != FR_NONE && passes(&box, ray, fr_octree_reach(tree, ray))) {
-            g_array_append_val(cell->rays, slot);
-        }
-    }
-}
+enum { CHILDREN_AT_ONCE = 4 };
+
+/// Some new cells of one parent, which are filled together.
+typedef struct Litter {
+    uint32_t parent, count;
+    uint32_t cells[CHILDREN_AT_ONCE];
+} Litter;
 
 typedef struct Filling {
     const FrOctree *tree;
     const FrPaths *paths;
-    const uint32_t *cells;
+    const Litter *litters;
 } Filling;
 
-static void fill_cells(void *data, size_t begin, size_t end, int worker) {
-    (void)worker;
-    const Filling *filling = data;
-    for (size_t i = begin; i < end; i++) {
-        fill_cell(filling->tree, cell_at(filling->tree, filling->cells[i]), filling->paths);
+// Sieves the parent's rays; those of the root are all.
+static void fill_litter(const FrOctree *tree, const Litter *litter, const FrPaths *paths) {
+    const FrSlots *above = litter->parent != 0 ? &cell_at(tree, litter->parent)->rays : NULL;
+    uint32_t count = above != NULL ? above->count : paths->count;
+    FrSlots found[CHILDREN_AT_ONCE];
+    Box boxes[CHILDREN_AT_ONCE];
+    for (uint32_t k = 0; k < litter->count; k++) {
+        FrCell *cell = cell_at(tree, litter->cells[k]);
+        boxes[k] = box_of(tree, cell);
+        found[k] = cell->rays;
+        found[k].count = 0;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t slot = above != NULL ? above->at[i] : i;
+        const FrRay *ray = &paths->rays[slot];
+        if (ray->photon == FR_NONE) {
+            continue;
+        }
+        Line line = line_of(ray, fr_octree_reach(tree, ray));
+        for (uint32_t k = 0; k < litter->count; k++) {
+            if (passes(&boxes[k], &line)) {
+                fr_slots_push(&found[k], slot);
+            }
+        }
+    }
+    for (uint32_t k = 0; k < litter->count; k++) {
+        cell_at(tree, litter->cells[k])->rays = found[k];
     }
 }
 
-enum { MOST_LEVELS = 32 };
+static void fill_litters(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Filling *filling = data;
+    for (size_t i = begin; i < end; i++) {
+        fill_litter(filling->tree, &filling->litters[i], filling->paths);
+    }
+}
+
+static int compare_by_parent(const void *a, const void *b, void *user) {
+    const FrOctree *tree = user;
+    const FrCell *left = cell_at(tree, *(const uint32_t *)a);
+    const FrCell *right = cell_at(tree, *(const uint32_t *)b);
+    if (left->level != right->level) {
+        return left->level < right->level ? -1 : 1;
+    }
+    return left->parent < right->parent ? -1 : left->parent > right->parent;
+}
+
+// The next cells of one level, in litters; `*next` is moved on.
+static GArray *take_level(const FrOctree *tree, guint *next) {
+    GArray *litters = g_array_new(FALSE, FALSE, sizeof(Litter));
+    const GArray *cells = tree->unfilled;
+    uint16_t level = cell_at(tree, g_array_index(cells, uint32_t, *next))->level;
+    Litter litter = {.count = 0};
+    for (; *next < cells->len; ++*next) {
+        uint32_t index = g_array_index(cells, uint32_t, *next);
+        const FrCell *cell = cell_at(tree, index);
+        if (cell->level != level) {
+            break;
+        }
+        if (litter.count > 0 &&
+            (litter.parent != cell->parent || litter.count == CHILDREN_AT_ONCE)) {
+            g_array_append_val(litters, litter);
+            litter.count = 0;
+        }
+        litter.parent = cell->parent;
+        litter.cells[litter.count++] = index;
+    }
+    g_array_append_val(litters, litter);
+    return litters;
+}
 
 void fr_octree_fill(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
-    GArray *levels[MOST_LEVELS] = {NULL};
-    for (guint i = 0; i < tree->unfilled->len; i++) {
-        uint32_t cell = g_array_index(tree->unfilled, uint32_t, i);
-        uint16_t level = cell_at(tree, cell)->level;
-        if (levels[level] == NULL) {
-            levels[level] = g_array_new(FALSE, FALSE, sizeof(uint32_t));
-        }
-        g_array_append_val(levels[level], cell);
+    g_array_sort_with_data(tree->unfilled, compare_by_parent, tree);
+    for (guint next = 0; next < tree->unfilled->len;) {
+        GArray *litters = take_level(tree, &next);
+        Filling filling = {tree, paths, (const Litter *)(void *)litters->data};
+        fr_parallel_for(pool, litters->len, 1, fill_litters, &filling, NULL);
+        g_array_unref(litters);
     }
     g_array_set_size(tree->unfilled, 0);
-    for (int level = 1; level < MOST_LEVELS; level++) {
-        if (levels[level] != NULL) {
-            Filling filling = {tree, paths, (const uint32_t *)(void *)levels[level]->data};
-            fr_parallel_for(pool, levels[level]->len, 1, fill_cells, &filling, NULL);
-            g_array_unref(levels[level]);
-        }
-    }
 }
 
 void fr_octree_next_round(FrOctree *tree) {
@@ -193,8 +251,9 @@ static void free_cell(FrOctree *tree, uint32_t index) {
             above->child[i] = FR_NONE;
         }
     }
-    g_array_unref(cell->rays);
-    cell->rays = NULL;
+    g_free(cell->rays.at);
+    cell->rays = (FrSlots){0};
+    cell->is_free = true;
     g_array_append_val(tree->free_cells, index);
 }
 
@@ -202,7 +261,7 @@ static void free_cell(FrOctree *tree, uint32_t index) {
 void fr_octree_prune(FrOctree *tree) {
     for (guint i = 1; i < tree->cells->len; i++) {
         const FrCell *cell = cell_at(tree, i);
-        if (cell->rays != NULL && cell->round != tree->round) {
+        if (!cell->is_free && cell->round != tree->round) {
             free_cell(tree, i);
         }
     }
@@ -213,21 +272,19 @@ static void drop_stale(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Filling *filling = data;
     for (size_t i = begin; i < end; i++) {
-        GArray *rays = cell_at(filling->tree, (uint32_t)i)->rays;
-        guint kept = 0;
-        for (guint k = 0; rays != NULL && k < rays->len; k++) {
-            uint32_t slot = g_array_index(rays, uint32_t, k);
-            if (!filling->paths->rays[slot].is_stale) {
-                g_array_index(rays, uint32_t, kept++) = slot;
+        FrSlots *rays = &cell_at(filling->tree, (uint32_t)i)->rays;
+        uint32_t kept = 0;
+        for (uint32_t k = 0; k < rays->count; k++) {
+            if (!filling->paths->rays[rays->at[k]].is_stale) {
+                rays->at[kept++] = rays->at[k];
             }
         }
-        if (rays != NULL) {
-            g_array_set_size(rays, kept);
-        }
+        rays->count = kept;
     }
 }
 
-static void insert(FrOctree *tree, uint32_t index, const FrRay *ray, uint32_t slot, double reach) {
+// As many calls deep as the tree has levels.
+static void insert(FrOctree *tree, uint32_t index, const Line *line, uint32_t slot) {
     const FrCell *cell = cell_at(tree, index);
     for (int i = 0; i < 8; i++) {
         if (cell->child[i] == FR_NONE) {
@@ -235,9 +292,9 @@ static void insert(FrOctree *tree, uint32_t index, const FrRay *ray, uint32_t sl
         }
         FrCell *child = cell_at(tree, cell->child[i]);
         Box box = box_of(tree, child);
-        if (passes(&box, ray, reach)) {
-            g_array_append_val(child->rays, slot);
-            insert(tree, cell->child[i], ray, slot, reach); // at most MOST_LEVELS deep
+        if (passes(&box, line)) {
+            fr_slots_push(&child->rays, slot);
+            insert(tree, cell->child[i], line, slot);
         }
     }
 }
@@ -245,7 +302,7 @@ static void insert(FrOctree *tree, uint32_t index, const FrRay *ray, uint32_t sl
 void fr_octree_update(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
     if (paths->is_all_new) {
         for (guint i = 1; i < tree->cells->len; i++) {
-            if (cell_at(tree, i)->rays != NULL) {
+            if (!cell_at(tree, i)->is_free) {
                 g_array_append_val(tree->unfilled, i);
             }
         }
@@ -260,7 +317,8 @@ void fr_octree_update(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
     for (guint i = 0; i < paths->fresh->len; i++) {
         uint32_t slot = g_array_index(paths->fresh, uint32_t, i);
         const FrRay *ray = &paths->rays[slot];
-        insert(tree, 0, ray, slot, fr_octree_reach(tree, ray));
+        Line line = line_of(ray, fr_octree_reach(tree, ray));
+        insert(tree, 0, &line, slot);
     }
 }
 
@@ -271,8 +329,7 @@ uint64_t fr_octree_cell_count(const FrOctree *tree) {
 uint64_t fr_octree_reference_count(const FrOctree *tree) {
     uint64_t count = 0;
     for (guint i = 1; i < tree->cells->len; i++) {
-        const FrCell *cell = cell_at(tree, i);
-        count += cell->rays != NULL ? cell->rays->len : 0;
+        count += cell_at(tree, i)->rays.count;
     }
     return count;
 }

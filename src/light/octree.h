@@ -10,12 +10,26 @@
 
 #include "light/paths.h"
 
+typedef struct FrSlots {
+    uint32_t *at;
+    uint32_t count, capacity;
+} FrSlots;
+
+static inline void fr_slots_push(FrSlots *slots, uint32_t slot) {
+    if (slots->count == slots->capacity) {
+        slots->capacity = MAX(16, slots->capacity + slots->capacity / 2);
+        slots->at = g_renew(uint32_t, slots->at, slots->capacity);
+    }
+    slots->at[slots->count++] = slot;
+}
+
 typedef struct FrCell {
     uint32_t parent, child[8]; ///< FR_NONE
     uint32_t at[3];            ///< in cells of its level
     uint16_t level;            ///< 0: the root
     uint32_t round;            ///< in which it was last wanted
-    GArray *rays;              ///< uint32_t, slots; NULL for the root and for what is free
+    bool is_free;
+    FrSlots rays; ///< empty for the root
 } FrCell;
 
 typedef struct FrOctree {

@@ -230,9 +230,18 @@ typedef struct Search {
     const FrPaths *paths;
     const FrSurfaces *surfaces;
     uint32_t added, removed, box_count;
-    float boxes[8][2][3];
+    float boxes[FR_MOST_BOXES][2][3];
+    float extent; ///< of the boxes, from the origin
     GArray **cut; ///< uint32_t, slots, one array for each chunk
 } Search;
+
+static inline float smaller(float a, float b) {
+    return a < b ? a : b;
+}
+
+static inline float larger(float a, float b) {
+    return a > b ? a : b;
+}
 
 // True if the ray meets one of the boxes around what is new, up to some rounding.
 static bool meets_box(const Search *search, const FrRay *ray) {
@@ -241,17 +250,17 @@ static bool meets_box(const Search *search, const FrRay *ray) {
         inverse[c] = 1.0f / (fabsf(ray->direction[c]) > 1e-20f ? ray->direction[c] : 1e-20f);
     }
     for (uint32_t b = 0; b < search->box_count; b++) {
-        float near = 0.0f, far = (float)ray->distance * 1.0001f;
+        float near = 0.0f, far = (float)ray->distance;
         for (int c = 0; c < 3; c++) {
-            float slack = 1e-5f * (fabsf(ray->origin[c]) + fabsf(search->boxes[b][0][c]) +
-                                   fabsf(search->boxes[b][1][c]));
+            float slack = 1e-5f * (search->extent + fabsf(ray->origin[c]));
             float low = (search->boxes[b][0][c] - slack - ray->origin[c]) * inverse[c];
             float high = (search->boxes[b][1][c] + slack - ray->origin[c]) * inverse[c];
-            near = fmaxf(near, fminf(low, high));
-            far = fminf(far, fmaxf(low, high));
+            near = larger(near, smaller(low, high));
+            far = smaller(far, larger(low, high));
         }
-        if (near <= far * 1.0001f) {
-            return true;
+        bool is_met = near <= far * 1.0001f;
+        if (is_met != (b == 0)) {
+            return is_met; // the first is around all others
         }
     }
     return false;
@@ -340,6 +349,10 @@ FrStatus fr_paths_update(FrPaths *paths, const FrSurfaces *surfaces, uint32_t ad
     }
     fit_meetings(paths, surfaces);
     search.box_count = added > 0 ? fr_surfaces_added_boxes(surfaces, search.boxes) : 0;
+    for (int c = 0; c < 3 && added > 0; c++) {
+        search.extent = larger(search.extent,
+                               larger(fabsf(search.boxes[0][0][c]), fabsf(search.boxes[0][1][c])));
+    }
     GArray *cuts = find_cuts(&search, context);
     if (cuts == NULL) {
         return FR_CANCELLED;

@@ -322,38 +322,36 @@ const FrOptics *fr_surfaces_optics(const FrSurfaces *surfaces, uint32_t triangle
     return is_back ? &material->back : &material->front;
 }
 
-uint32_t fr_surfaces_added_boxes(const FrSurfaces *surfaces, float boxes[8][2][3]) {
-    uint32_t count = surfaces->count - surfaces->last;
-    double middle[3] = {0};
-    for (uint32_t i = 0; i < count; i++) {
-        for (int c = 0; c < 9; c++) {
-            middle[c % 3] += (double)surfaces->last_corners[i][c] / 3.0 / count;
-        }
+static void extend_box(float box[2][3], const float corners[9]) {
+    for (int c = 0; c < 9; c++) {
+        box[0][c % 3] = MIN(box[0][c % 3], corners[c]);
+        box[1][c % 3] = MAX(box[1][c % 3], corners[c]);
     }
-    float all[8][2][3];
-    bool is_used[8] = {false};
-    for (int b = 0; b < 8; b++) {
-        for (int c = 0; c < 3; c++) {
-            all[b][0][c] = INFINITY;
-            all[b][1][c] = -INFINITY;
-        }
+}
+
+uint32_t fr_surfaces_added_boxes(const FrSurfaces *surfaces, float boxes[FR_MOST_BOXES][2][3]) {
+    const float empty[2][3] = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    uint32_t count = surfaces->count - surfaces->last;
+    float octants[8][2][3];
+    memcpy(boxes[0], empty, sizeof empty);
+    for (uint32_t i = 0; i < count; i++) {
+        extend_box(boxes[0], surfaces->last_corners[i]);
+    }
+    for (int o = 0; o < 8; o++) {
+        memcpy(octants[o], empty, sizeof empty);
     }
     for (uint32_t i = 0; i < count; i++) {
         const float *corners = surfaces->last_corners[i];
-        int b = 0;
+        int octant = 0;
         for (int c = 0; c < 3; c++) {
-            b |= (double)corners[c] > middle[c] ? 1 << c : 0;
+            octant |= corners[c] > 0.5f * (boxes[0][0][c] + boxes[0][1][c]) ? 1 << c : 0;
         }
-        is_used[b] = true;
-        for (int c = 0; c < 9; c++) {
-            all[b][0][c % 3] = fminf(all[b][0][c % 3], corners[c]);
-            all[b][1][c % 3] = fmaxf(all[b][1][c % 3], corners[c]);
-        }
+        extend_box(octants[octant], corners);
     }
-    uint32_t used = 0;
-    for (int b = 0; b < 8; b++) {
-        if (is_used[b]) {
-            memcpy(boxes[used++], all[b], sizeof all[b]);
+    uint32_t used = 1;
+    for (int o = 0; o < 8; o++) {
+        if (octants[o][0][0] <= octants[o][1][0]) {
+            memcpy(boxes[used++], octants[o], sizeof octants[o]);
         }
     }
     return used;

@@ -22,9 +22,10 @@ FR_MUST_USE FrStatus fr_surfaces_set(FrSurfaces *surfaces, const FrLightScene *s
 const FrSoup *fr_surfaces_soup(const FrSurfaces *surfaces);
 /// What happens to light on that side of a triangle.
 const FrOptics *fr_surfaces_optics(const FrSurfaces *surfaces, uint32_t triangle, bool is_back);
-/// The smallest boxes around the triangles of the last batch, split by octants about their middle:
-/// at most 8, the count is returned.
-uint32_t fr_surfaces_added_boxes(const FrSurfaces *surfaces, float boxes[8][2][3]);
+enum { FR_MOST_BOXES = 9 };
+/// Boxes around the triangles of the last batch: the first around all of them, the others around
+/// those in each octant about their middle. Returns how many there are.
+uint32_t fr_surfaces_added_boxes(const FrSurfaces *surfaces, float boxes[FR_MOST_BOXES][2][3]);
 /// All elements of all stands, and the first of a stand.
 uint64_t fr_surfaces_element_count(const FrSurfaces *surfaces);
 uint64_t fr_surfaces_first_element(const FrSurfaces *surfaces, uint32_t stand);
