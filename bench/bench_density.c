@@ -197,7 +197,7 @@ static void bench_update(void) {
     set(&cloud);
     uint64_t rays = fr_light_stats(cloud.light).rays;
     use(&cloud, 1,
-        leaves(12000, 2, (vec3s){{3.3f, 7.5f, 3.3f}}, (vec3s){{2.7f, 1.5f, 2.7f}}, 0.06f));
+        leaves(15000, 2, (vec3s){{3.3f, 7.5f, 3.3f}}, (vec3s){{2.7f, 1.5f, 2.7f}}, 0.06f));
     cloud.scene.mesh_count = 2;
     cloud.scene.stand_count = 2;
     double start = bench_now();
@@ -205,7 +205,7 @@ static void bench_update(void) {
     double seconds = bench_now() - start;
     uint64_t recast = fr_light_stats(cloud.light).recast;
     bench_tell("density.update", (double)recast / seconds, (double)rays / traced, "rays/s",
-               "12000 leaves more among 250000: %.1f %% of %" G_GUINT64_FORMAT " rays traced again "
+               "15000 leaves more among 250000: %.1f %% of %" G_GUINT64_FORMAT " rays traced again "
                "in %.3f s, 1/%.1f of a full trace (%.2f s), 1/%.1f of a new light (%.2f s), 1 "
                "thread; limit: the full trace's rate",
                100.0 * (double)recast / (double)rays, rays, seconds, traced / seconds, traced,

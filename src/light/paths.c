@@ -36,22 +36,31 @@ void fr_paths_free(FrPaths *paths) {
     g_free(paths);
 }
 
+/// A ray that does not meet any more what it met.
+typedef struct Cut {
+    uint32_t slot;
+    bool is_known; ///< what it meets now
+    FrSoupHit hit;
+} Cut;
+
 /// One loop over photons: all from their lamps, or some from where their paths were broken.
 typedef struct Job {
     const FrPaths *paths;
-    const FrEmitters *emitters; ///< NULL: go on from `broken`
+    const FrEmitters *emitters; ///< NULL: go on from `cuts`
     const FrSurfaces *surfaces;
-    const uint32_t *broken; ///< slots of the rays to be traced again
-    size_t begin, end;      ///< photons, or places in `broken`
-    GArray **found;         ///< FrRay, one array for each chunk
+    const Cut *cuts;
+    size_t begin, end; ///< photons, or cuts
+    GArray **found;    ///< FrRay, one array for each chunk
 } Job;
 
-// From the ray's origin and direction to the end of the path.
-static void follow(const Job *job, FrRay ray, GArray *found) {
+// From the ray's origin and direction to the end of the path. `known` is what the first ray meets,
+// or NULL.
+static void follow(const Job *job, FrRay ray, const FrSoupHit *known, GArray *found) {
     const FrSoup *soup = fr_surfaces_soup(job->surfaces);
     FrKey photon_key = fr_key_child(job->paths->key, ray.photon);
-    for (;;) {
-        FrSoupHit hit = fr_soup_trace(soup, ray.origin, ray.direction, ray.from);
+    for (;; known = NULL) {
+        FrSoupHit hit =
+            known != NULL ? *known : fr_soup_trace(soup, ray.origin, ray.direction, ray.from);
         ray.distance = hit.distance;
         ray.triangle = hit.triangle;
         ray.is_back = hit.is_back;
@@ -80,7 +89,7 @@ static void send_photon(const Job *job, uint32_t photon, GArray *found) {
     FrRay ray = {.photon = photon, .from = FR_NONE};
     memcpy(ray.origin, emission.origin, sizeof ray.origin);
     memcpy(ray.direction, emission.direction, sizeof ray.direction);
-    follow(job, ray, found);
+    follow(job, ray, NULL, found);
 }
 
 static void follow_chunks(void *data, size_t begin, size_t end, int worker) {
@@ -91,10 +100,11 @@ static void follow_chunks(void *data, size_t begin, size_t end, int worker) {
         g_array_set_size(found, 0);
         size_t first = job->begin + chunk * PHOTONS_AT_ONCE;
         for (size_t i = first; i < MIN(first + PHOTONS_AT_ONCE, job->end); i++) {
-            if (job->broken == NULL) {
+            if (job->cuts == NULL) {
                 send_photon(job, (uint32_t)i, found);
             } else {
-                follow(job, job->paths->rays[job->broken[i]], found);
+                const Cut *cut = &job->cuts[i];
+                follow(job, job->paths->rays[cut->slot], cut->is_known ? &cut->hit : NULL, found);
             }
         }
     }
@@ -134,10 +144,10 @@ static uint32_t take_slot(FrPaths *paths) {
     return slot;
 }
 
-// Stores the rays of whole paths, or of the ends of paths whose first slots are `broken`.
-static void store(FrPaths *paths, const GArray *found, const uint32_t *broken) {
+// Stores the rays of whole paths, or of the ends of paths that were cut.
+static void store(FrPaths *paths, const GArray *found, const Cut *cut) {
     uint32_t last = FR_NONE;
-    bool is_update = broken != NULL;
+    bool is_update = cut != NULL;
     for (guint i = 0; i < found->len; i++) {
         const FrRay *ray = &g_array_index(found, FrRay, i);
         bool is_first = last == FR_NONE || paths->rays[last].photon != ray->photon;
@@ -146,7 +156,7 @@ static void store(FrPaths *paths, const GArray *found, const uint32_t *broken) {
             slot = take_slot(paths);
             paths->rays[last].next = slot;
         } else if (is_update) {
-            slot = *broken++;
+            slot = cut++->slot;
         } else {
             slot = take_slot(paths);
             paths->first[ray->photon] = slot;
@@ -181,13 +191,13 @@ static FrStatus run(FrPaths *paths, Job *job, const FrContext *context) {
         if (fr_progress_is_cancelled(context->progress)) {
             status = FR_CANCELLED;
         }
-        const uint32_t *broken = job->broken != NULL ? job->broken + begin : NULL;
+        const Cut *cuts = job->cuts != NULL ? job->cuts + begin : NULL;
         for (size_t i = 0; i < chunks && status == FR_OK; i++) {
             paths->traced += found[i]->len;
             status = reserve(paths, found[i]->len, context);
             if (status == FR_OK) {
-                store(paths, found[i], broken);
-                broken += broken != NULL ? PHOTONS_AT_ONCE : 0;
+                store(paths, found[i], cuts);
+                cuts += cuts != NULL ? PHOTONS_AT_ONCE : 0;
             }
         }
         fr_progress_report(context->progress, "light", (double)job->end / (double)count);
@@ -231,8 +241,8 @@ typedef struct Search {
     const FrSurfaces *surfaces;
     uint32_t added, removed, box_count;
     float boxes[FR_MOST_BOXES][2][3];
-    float extent; ///< of the boxes, from the origin
-    GArray **cut; ///< uint32_t, slots, one array for each chunk
+    float extent;  ///< of the boxes, from the origin
+    GArray **cuts; ///< Cut, one array for each chunk
 } Search;
 
 static inline float smaller(float a, float b) {
@@ -266,45 +276,50 @@ static bool meets_box(const Search *search, const FrRay *ray) {
     return false;
 }
 
-static bool is_cut(const Search *search, const FrRay *ray) {
+static bool is_cut(const Search *search, const FrRay *ray, Cut *cut) {
     const FrSoup *soup = fr_surfaces_soup(search->surfaces);
+    cut->is_known = false;
     if (search->removed > 0 && ray->triangle != FR_NONE && !fr_soup_has(soup, ray->triangle)) {
         return true;
     }
-    return search->added > 0 && meets_box(search, ray) &&
-           fr_soup_is_cut(soup, ray->origin, ray->direction, ray->distance, ray->triangle);
+    if (search->added == 0 || !meets_box(search, ray)) {
+        return false;
+    }
+    cut->hit = fr_soup_trace_last(soup, ray->origin, ray->direction, ray->distance, ray->triangle);
+    cut->is_known = cut->hit.triangle != FR_NONE;
+    return cut->is_known;
 }
 
 static void search_rays(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Search *search = data;
-    GArray *cut = g_array_new(FALSE, FALSE, sizeof(uint32_t));
+    GArray *cuts = g_array_new(FALSE, FALSE, sizeof(Cut));
     for (size_t i = begin; i < end; i++) {
         const FrRay *ray = &search->paths->rays[i];
-        if (ray->photon != FR_NONE && is_cut(search, ray)) {
-            uint32_t slot = (uint32_t)i;
-            g_array_append_val(cut, slot);
+        Cut cut = {.slot = (uint32_t)i};
+        if (ray->photon != FR_NONE && is_cut(search, ray, &cut)) {
+            g_array_append_val(cuts, cut);
         }
     }
-    search->cut[begin / RAYS_AT_ONCE] = cut;
+    search->cuts[begin / RAYS_AT_ONCE] = cuts;
 }
 
-// The slots of all cut rays, in order. NULL: cancelled.
+// All cuts in the order of their slots. NULL: cancelled.
 static GArray *find_cuts(Search *search, const FrContext *context) {
     uint32_t count = search->paths->count;
     size_t chunks = ((size_t)count + RAYS_AT_ONCE - 1) / RAYS_AT_ONCE;
-    search->cut = g_new0(GArray *, chunks);
+    search->cuts = g_new0(GArray *, chunks);
     fr_parallel_for(context->pool, count, RAYS_AT_ONCE, search_rays, search, context->progress);
-    GArray *all = g_array_new(FALSE, FALSE, sizeof(uint32_t));
+    GArray *all = g_array_new(FALSE, FALSE, sizeof(Cut));
     bool is_whole = true;
     for (size_t i = 0; i < chunks; i++) {
-        is_whole = is_whole && search->cut[i] != NULL;
-        if (search->cut[i] != NULL) {
-            g_array_append_vals(all, search->cut[i]->data, search->cut[i]->len);
-            g_array_unref(search->cut[i]);
+        is_whole = is_whole && search->cuts[i] != NULL;
+        if (search->cuts[i] != NULL) {
+            g_array_append_vals(all, search->cuts[i]->data, search->cuts[i]->len);
+            g_array_unref(search->cuts[i]);
         }
     }
-    g_free(search->cut);
+    g_free(search->cuts);
     if (!is_whole) {
         g_array_unref(all);
         return NULL;
@@ -315,7 +330,7 @@ static GArray *find_cuts(Search *search, const FrContext *context) {
 // Frees what comes after each cut, and keeps of the cuts those that are the first on their paths.
 static void prune(FrPaths *paths, GArray *cuts) {
     for (guint i = 0; i < cuts->len; i++) {
-        uint32_t slot = g_array_index(cuts, uint32_t, i);
+        uint32_t slot = g_array_index(cuts, Cut, i).slot;
         for (uint32_t r = paths->rays[slot].next; r != FR_NONE;) {
             FrRay *ray = &paths->rays[r];
             if (ray->photon == FR_NONE) {
@@ -330,12 +345,12 @@ static void prune(FrPaths *paths, GArray *cuts) {
     }
     guint kept = 0;
     for (guint i = 0; i < cuts->len; i++) {
-        uint32_t slot = g_array_index(cuts, uint32_t, i);
-        FrRay *ray = &paths->rays[slot];
+        const Cut *cut = &g_array_index(cuts, Cut, i);
+        FrRay *ray = &paths->rays[cut->slot];
         if (ray->photon != FR_NONE) {
             note_meeting(paths, ray, UINT64_MAX);
             ray->is_stale = true;
-            g_array_index(cuts, uint32_t, kept++) = slot;
+            g_array_index(cuts, Cut, kept++) = *cut;
         }
     }
     g_array_set_size(cuts, kept);
@@ -360,7 +375,7 @@ FrStatus fr_paths_update(FrPaths *paths, const FrSurfaces *surfaces, uint32_t ad
     prune(paths, cuts);
     Job job = {.paths = paths,
                .surfaces = surfaces,
-               .broken = (const uint32_t *)(void *)cuts->data,
+               .cuts = (const Cut *)(void *)cuts->data,
                .end = cuts->len};
     FrStatus status = run(paths, &job, context);
     g_array_unref(cuts);

@@ -37,12 +37,12 @@ uint32_t fr_soup_count(const FrSoup *soup);
 /// What a ray meets first beyond its origin, other than the triangle `except`.
 FrSoupHit fr_soup_trace(const FrSoup *soup, const float origin[3], const float direction[3],
                         uint32_t except);
-/// True if the ray, which met `hit` before the last call of fr_soup_add(), now meets one of the
-/// triangles that call added instead.
-bool fr_soup_is_cut(const FrSoup *soup, const float origin[3], const float direction[3],
-                    double distance, uint32_t triangle);
+/// What a ray, which met `triangle` at `distance` before the last call of fr_soup_add(), meets of
+/// that call's triangles instead; nothing if it still meets what it met.
+FrSoupHit fr_soup_trace_last(const FrSoup *soup, const float origin[3], const float direction[3],
+                             double distance, uint32_t triangle);
 /// True if so much was added and removed that queries suffer.
 bool fr_soup_wants_compaction(const FrSoup *soup);
-/// Numbers what is left anew, in the same order. remap[old] = new or FR_NONE.
+/// Merges batches and numbers what is left anew, in the same order. remap[old] = new or FR_NONE.
 void fr_soup_compact(FrSoup *soup, uint32_t *remap);
 uint64_t fr_soup_bytes(const FrSoup *soup);

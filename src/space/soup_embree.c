@@ -240,8 +240,8 @@ FrSoupHit fr_soup_trace(const FrSoup *soup, const float origin[3], const float d
     return query.best;
 }
 
-bool fr_soup_is_cut(const FrSoup *soup, const float origin[3], const float direction[3],
-                    double distance, uint32_t triangle) {
+FrSoupHit fr_soup_trace_last(const FrSoup *soup, const float origin[3], const float direction[3],
+                             double distance, uint32_t triangle) {
     const Batch *last = g_ptr_array_index(soup->batches, soup->batches->len - 1);
     Query query;
     start(&query, soup, origin, direction);
@@ -256,22 +256,41 @@ bool fr_soup_is_cut(const FrSoup *soup, const float origin[3], const float direc
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(last->scene, &query.context, &ray);
     fr_restore_denormals(saved);
-    return query.best.triangle != FR_NONE;
+    return query.best;
 }
 
 bool fr_soup_wants_compaction(const FrSoup *soup) {
-    return soup->batches->len > MOST_BATCHES || 3 * (uint64_t)soup->gone > soup->count;
+    return soup->batches->len > MOST_BATCHES || soup->gone > soup->count / 2;
+}
+
+// The first batch keeps its tree while it is most of the soup and most of it is left: what comes
+// and goes in small steps is then merged without it.
+static guint first_to_merge(const FrSoup *soup) {
+    const Batch *first = g_ptr_array_index(soup->batches, 0);
+    uint32_t gone = 0;
+    for (uint32_t i = 0; i < first->count; i++) {
+        gone += first->is_gone[i];
+    }
+    return soup->batches->len > 1 && soup->count - first->count < first->count / 2 &&
+                   gone < first->count / 3
+               ? 1
+               : 0;
 }
 
 void fr_soup_compact(FrSoup *soup, uint32_t *remap) {
-    uint32_t left = soup->count - soup->gone;
-    float(*corners)[9] = g_malloc(left * sizeof *corners + FR_SOUP_PADDING);
-    uint64_t *keys = g_new(uint64_t, left);
+    guint from = first_to_merge(soup);
+    uint32_t kept = from == 0 ? 0 : ((Batch *)g_ptr_array_index(soup->batches, 0))->count;
+    for (uint32_t i = 0; i < kept; i++) {
+        remap[i] = fr_soup_has(soup, i) ? i : FR_NONE;
+    }
+    float(*corners)[9] = g_malloc((soup->count - kept) * sizeof *corners + FR_SOUP_PADDING);
+    uint64_t *keys = g_new(uint64_t, soup->count - kept);
     uint32_t next = 0;
-    for (guint b = 0; b < soup->batches->len; b++) {
+    for (guint b = from; b < soup->batches->len; b++) {
         Batch *batch = g_ptr_array_index(soup->batches, b);
         for (uint32_t i = 0; i < batch->count; i++) {
-            remap[batch->first + i] = batch->is_gone[i] ? FR_NONE : next;
+            remap[batch->first + i] = batch->is_gone[i] ? FR_NONE : kept + next;
+            soup->gone -= batch->is_gone[i];
             if (!batch->is_gone[i]) {
                 memcpy(corners[next], batch->corners[i], sizeof *corners);
                 keys[next++] = batch->keys[i];
@@ -279,11 +298,10 @@ void fr_soup_compact(FrSoup *soup, uint32_t *remap) {
         }
         free_batch(batch);
     }
-    g_ptr_array_set_size(soup->batches, 0);
-    soup->count = 0;
-    soup->gone = 0;
-    if (left > 0) {
-        fr_soup_add(soup, corners, keys, left);
+    g_ptr_array_set_size(soup->batches, (gint)from);
+    soup->count = kept;
+    if (next > 0) {
+        fr_soup_add(soup, corners, keys, next);
     } else {
         g_free(corners);
         g_free(keys);
