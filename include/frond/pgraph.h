@@ -26,6 +26,7 @@ typedef enum FrComponentKind {
     FR_COMPONENT_HYPERPATCH,
     FR_COMPONENT_WORLD,
     FR_COMPONENT_FORCE,
+    FR_COMPONENT_GRAFT,
     FR_COMPONENT_COUNT
 } FrComponentKind;
 
@@ -37,6 +38,7 @@ typedef enum FrLinkKind {
     FR_LINK_CHILD,  ///< thin line: at the tip of a stem, on each place of a multiplier
     FR_LINK_BRANCH, ///< bold: multiplied along the stem of a Tree, elsewhere like child
     FR_LINK_LEAF,   ///< dashed: once, after a recursion has ended, elsewhere like child
+    FR_LINK_SYMBOL, ///< at each place that a graft calls by a symbol
 } FrLinkKind;
 
 typedef struct FrPgraph FrPgraph;
@@ -57,9 +59,37 @@ FR_API void *fr_pgraph_params(FrPgraph *graph, uint32_t component);
 FR_API FrStatus fr_pgraph_link(FrPgraph *graph, uint32_t from, uint32_t to, FrLinkKind kind,
                                FrSpan span, FrDiags *diags);
 /// The `material` parameters of components name these. Takes a reference.
+/// Links from a graft to what stands at each place of a symbol.
+FR_API FrStatus fr_pgraph_link_symbol(FrPgraph *graph, uint32_t from, uint32_t to, char symbol,
+                                      FrSpan span, FrDiags *diags);
+/// Gives the plant of a graft a number that it knows by this name. Takes a copy. False if the graft
+/// gives one of that name already.
+FR_API bool fr_pgraph_define(FrPgraph *graph, uint32_t graft, const char *name,
+                             const FrNumber *number);
 FR_API void fr_pgraph_add_material(FrPgraph *graph, FrMaterial *material);
 /// Roots, unreachable components, cycles without a depth, unknown materials.
 FR_API FR_MUST_USE FrStatus fr_pgraph_check(const FrPgraph *graph, FrDiags *diags);
+
+/// What stands at one instance of a graft.
+typedef struct FrGraftWish {
+    const char *plant;   ///< its id
+    FrKey key;           ///< of the instance: all that is random in the plant hangs on it
+    int64_t steps;       ///< of its growth; < 0: as many as it has itself
+    const char *symbols; ///< that something is linked to; NULL: none
+    const char *const *names;
+    const double *values; ///< of the names: numbers that the plant knows
+    size_t count;
+} FrGraftWish;
+
+/// Who grows the plants of grafts. A place for something linked to a symbol is an organ without a
+/// shape, of a component that is called like the symbol.
+typedef struct FrGraft {
+    void *data;
+    /// Several threads call it at once; the context has no pool. Within its limits it makes no more
+    /// than they allow.
+    FrStatus (*grow)(void *data, const FrGraftWish *wish, const FrContext *context,
+                     FrPlant **plant);
+} FrGraft;
 
 /// What an expansion made. `by_component` has fr_pgraph_count() elements.
 typedef struct FrPgraphCounts {
@@ -72,6 +102,11 @@ typedef struct FrPgraphCounts {
 /// Expands and builds. The number of instances, nodes and organs of each generation is counted
 /// and checked before it is made. `counts` may be NULL; set counts->parent to a non-NULL value to
 /// ask for the i-tree (it is replaced by an array).
+/// `graft` (may be NULL) grows what its grafts ask for.
+FR_API FR_MUST_USE FrStatus fr_pgraph_build_grafted(const FrPgraph *graph, const FrGraft *graft,
+                                                    const FrContext *context, FrPlant **plant,
+                                                    FrPgraphCounts *counts);
+/// The same for a graph without grafts.
 FR_API FR_MUST_USE FrStatus fr_pgraph_build(const FrPgraph *graph, const FrContext *context,
                                             FrPlant **plant, FrPgraphCounts *counts);
 

@@ -130,6 +130,7 @@ FrElement fr_element(FrElementId id) {
     } else {
         element.table = fr_pgraph_table((FrComponentKind)(id - FR_ELEMENT_COMPONENT));
         element.name = element.table->element;
+        element.children = id == FR_ELEMENT_COMPONENT + FR_COMPONENT_GRAFT ? SET(DEFINE) : 0;
     }
     if (id == FR_ELEMENT_MATERIAL) {
         element.table = fr_material_table();
@@ -148,6 +149,9 @@ FrElement fr_element(FrElementId id) {
     }
     if (element.meaning == NULL) {
         element.meaning = element.table->meaning;
+    }
+    if (id == FR_ELEMENT_COMPONENT + FR_COMPONENT_GRAFT) {
+        element.required = "plant";
     }
     if (element.required == NULL) {
         element.required = "";

@@ -71,7 +71,8 @@ enum { FR_DOCUMENT_VERSION = 1 };
     X(TEXT, to, "", 0, 0, "", "", "id of the component that is made")                              \
     X(CHOICE, kind, "child", 0, 0, "", "child branch leaf",                                        \
       "child: at the tip; branch: multiplied along the stem of a tree; leaf: once, after a "       \
-      "recursion has ended")
+      "recursion has ended")                                                                       \
+    X(TEXT, symbol, "", 0, 0, "", "", "from a graft: at each place of this symbol of its plant")
 
 typedef struct FrFrondParams {
     FR_FROND_PARAMS(FR_PARAM_FIELD)

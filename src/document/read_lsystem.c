@@ -33,24 +33,30 @@ FrSource *fr_read_source(const FrReader *reader, uint32_t node) {
     return source;
 }
 
-static void read_define(FrReader *reader, uint32_t node, FrLmodel *model) {
+char *fr_read_define(FrReader *reader, uint32_t node, FrNumber *value) {
     const FrParamTable *table = fr_element(FR_ELEMENT_DEFINE).table;
     fr_read_check_children(reader, node, FR_ELEMENT_DEFINE);
     FrDefineParams params;
     fr_params_init(table, &params);
     fr_read_attributes(reader, node, FR_ELEMENT_DEFINE, &params);
-    char *id = fr_read_id(reader, node);
+    *value = fr_number_copy(&params.value);
+    fr_params_clear(table, &params);
+    return fr_read_id(reader, node);
+}
+
+static void read_define(FrReader *reader, uint32_t node, FrLmodel *model) {
+    FrNumber value;
+    char *id = fr_read_define(reader, node, &value);
     FrXmlRange place = fr_read_value_place(reader, node, "id");
-    if (id != NULL &&
-        !fr_lmodel_define(model, id, &params.value, fr_xml_span(reader->tree, place))) {
+    if (id != NULL && !fr_lmodel_define(model, id, &value, fr_xml_span(reader->tree, place))) {
         bool is_taken = fr_lmodel_find_value(model, id) != FR_NONE;
         fr_read_error(reader, is_taken ? "duplicate-id" : "bad-id", place,
                       is_taken ? "there is a number '%s' already"
                                : "'%s' is no name in an L-system: letters, digits and '_'",
                       id);
     }
+    fr_number_clear(&value);
     g_free(id);
-    fr_params_clear(table, &params);
 }
 
 /// The materials of colours, by the names of an attribute.
@@ -115,4 +121,63 @@ FrLmodel *fr_read_lsystem(FrReader *reader, uint32_t node) {
     fr_params_clear(fr_lsystem_table(), &params);
     fr_read_note(reader, before);
     return model;
+}
+
+// ---- grafts -----------------------------------------------------------------------------------
+
+/// The plant that a graft names, if it can be grafted.
+static const FrPlantDef *find_grafted(FrReader *reader, uint32_t node) {
+    const FrXmlAttribute *attribute = fr_xml_attribute(reader->tree, node, "plant");
+    if (attribute == NULL) {
+        return NULL; // reported as missing
+    }
+    char *id = fr_xml_decode(reader->tree, attribute->value, true);
+    const FrPlantDef *plant = g_hash_table_lookup(reader->plant_ids, id);
+    if (plant == NULL) {
+        const GPtrArray *plants = reader->document->plants;
+        uint32_t count = fr_read_candidates(plants->len);
+        const char **names = g_new(const char *, count + 1);
+        for (uint32_t i = 0; i < count; i++) {
+            names[i] = ((const FrPlantDef *)g_ptr_array_index(plants, i))->id;
+        }
+        char *hint = fr_read_hint(reader, id, names, count);
+        fr_read_error(reader, "unknown-plant", attribute->value,
+                      "there is no plant '%.64s' to graft%s", id, hint);
+        g_free(hint);
+        g_free(names);
+    } else if (plant->kind != FR_PLANT_LSYSTEM) {
+        fr_read_error(reader, "wrong-graft", attribute->value,
+                      "'%.64s' is no L-system; only those can be grafted", id);
+        plant = NULL;
+    }
+    g_free(id);
+    return plant;
+}
+
+static void check_graft(FrReader *reader, uint32_t node) {
+    const FrPlantDef *plant = find_grafted(reader, node);
+    for (uint32_t child = fr_read_first(reader, node, FR_ELEMENT_DEFINE);
+         child != FR_NONE && plant != NULL;
+         child = fr_read_next(reader, child, FR_ELEMENT_DEFINE)) {
+        const FrXmlAttribute *attribute = fr_xml_attribute(reader->tree, child, "id");
+        char *id = attribute == NULL ? NULL : fr_xml_decode(reader->tree, attribute->value, true);
+        if (id != NULL && fr_lmodel_find_value(plant->lsystem, id) == FR_NONE) {
+            fr_read_error(reader, "unused-value", attribute->value,
+                          "the plant '%s' has no <define> of '%.64s'", plant->id, id);
+        }
+        g_free(id);
+    }
+}
+
+void fr_read_check_grafts(FrReader *reader) {
+    const FrElementId graft = FR_ELEMENT_COMPONENT + FR_COMPONENT_GRAFT;
+    const FrXmlTree *tree = reader->tree;
+    for (uint32_t plant = fr_read_first(reader, tree->root, FR_ELEMENT_PLANT); plant != FR_NONE;
+         plant = fr_read_next(reader, plant, FR_ELEMENT_PLANT)) {
+        uint32_t graph = fr_read_first(reader, plant, FR_ELEMENT_PGRAPH);
+        for (uint32_t node = graph == FR_NONE ? FR_NONE : fr_read_first(reader, graph, graft);
+             node != FR_NONE; node = fr_read_next(reader, node, graft)) {
+            check_graft(reader, node);
+        }
+    }
 }

@@ -1,6 +1,8 @@
 /// `<pgraph>`: components by their element's name, and the links between them.
 #include "document/reader.h"
 
+#include <string.h>
+
 typedef struct GraphReader {
     FrReader *reader;
     FrPgraph *graph;
@@ -50,6 +52,22 @@ static void add_materials(GraphReader *graph, uint32_t node, const FrParamTable 
     }
 }
 
+/// The numbers that a graft gives its plant.
+static void read_defines(GraphReader *graph, uint32_t node, uint32_t component) {
+    FrReader *reader = graph->reader;
+    for (uint32_t child = fr_read_first(reader, node, FR_ELEMENT_DEFINE); child != FR_NONE;
+         child = fr_read_next(reader, child, FR_ELEMENT_DEFINE)) {
+        FrNumber value;
+        char *id = fr_read_define(reader, child, &value);
+        if (id != NULL && !fr_pgraph_define(graph->graph, component, id, &value)) {
+            fr_read_error(reader, "duplicate-id", fr_read_value_place(reader, child, "id"),
+                          "there is a number '%s' already", id);
+        }
+        fr_number_clear(&value);
+        g_free(id);
+    }
+}
+
 static void read_component(GraphReader *graph, uint32_t node, FrElementId element) {
     FrReader *reader = graph->reader;
     fr_read_check_children(reader, node, element);
@@ -69,6 +87,9 @@ static void read_component(GraphReader *graph, uint32_t node, FrElementId elemen
     void *params = fr_pgraph_params(graph->graph, component);
     fr_read_attributes(reader, node, element, params);
     add_materials(graph, node, fr_element(element).table, params);
+    if (element == FR_ELEMENT_COMPONENT + FR_COMPONENT_GRAFT) {
+        read_defines(graph, node, component);
+    }
 }
 
 /// The component an attribute of a link names, FR_NONE with an error.
@@ -106,8 +127,17 @@ static void read_link(GraphReader *graph, uint32_t node) {
     uint32_t to = find_component(graph, node, "to", params.to);
     if (from != FR_NONE && to != FR_NONE) {
         FrSpan span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
-        fr_read_note(reader, fr_pgraph_link(graph->graph, from, to, (FrLinkKind)params.kind, span,
-                                            reader->diags));
+        FrXmlRange symbol = fr_read_value_place(reader, node, "symbol");
+        if (params.symbol != NULL && strlen(params.symbol) != 1) {
+            fr_read_error(reader, "wrong-symbol", symbol, "a symbol is one letter or digit");
+        } else if (params.symbol != NULL) {
+            fr_read_note(reader,
+                         fr_pgraph_link_symbol(graph->graph, from, to, *params.symbol,
+                                               fr_xml_span(reader->tree, symbol), reader->diags));
+        } else {
+            fr_read_note(reader, fr_pgraph_link(graph->graph, from, to, (FrLinkKind)params.kind,
+                                                span, reader->diags));
+        }
     }
     fr_params_clear(table, &params);
 }

@@ -112,4 +112,5 @@ void fr_read_plants(FrReader *reader, uint32_t parent) {
         }
     }
     fr_read_check_bases(reader);
+    fr_read_check_grafts(reader);
 }

@@ -45,6 +45,10 @@ void fr_read_check_sliders(FrReader *reader, uint32_t plant, const FrPgraph *gra
 void fr_read_pgraph(FrReader *reader, uint32_t node, FrPgraph *graph);
 /// Reads an `<lsystem>` and compiles it.
 FrLmodel *fr_read_lsystem(FrReader *reader, uint32_t node);
+/// Reads a `<define>`: its id, to be freed with g_free(), or NULL with an error. `value` is set.
+char *fr_read_define(FrReader *reader, uint32_t node, FrNumber *value);
+/// Reports grafts of plants that cannot be grafted, and numbers those do not know.
+void fr_read_check_grafts(FrReader *reader);
 /// Reads a `<vary>`; NULL after an error that leaves nothing of it.
 FrVary *fr_read_vary(FrReader *reader, uint32_t node);
 /// Reports varied plants whose base is no other plant.

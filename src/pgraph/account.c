@@ -37,7 +37,9 @@ FrLevelSums fr_level_sum(const FrExpansion *expansion) {
     for (uint32_t row = 0; row < level->count; row++) {
         uint64_t children =
             (uint64_t)level->tips[row] * fr_instance_stage(expansion, row)->link_count;
-        if (level->places[row] > 0) {
+        if (fr_stage_prepared(expansion, level->stage[row])->kind == FR_COMPONENT_GRAFT) {
+            children += level->places[row]; // those of every link
+        } else if (level->places[row] > 0) {
             children += (uint64_t)level->places[row] * multiplied_links(expansion, row);
         }
         sums.considered = fr_count_add(sums.considered, children);

@@ -188,12 +188,16 @@ static FrStatus expand_level(FrBuild *build) {
     FrExpansion *expansion = &build->expansion;
     const FrContext *context = build->context;
     record_level(build);
+    FrStatus status = fr_grafts_grow(&build->grafting, expansion, context);
+    if (status != FR_OK) {
+        return status;
+    }
     for_level(build, measure_range);
     if (fr_progress_is_cancelled(context->progress)) {
         return FR_CANCELLED;
     }
     FrLevelSums sums = fr_level_sum(expansion);
-    FrStatus status = fr_build_check_level(build, &sums);
+    status = fr_build_check_level(build, &sums);
     if (status != FR_OK) {
         return status;
     }
@@ -253,6 +257,15 @@ static gint compare_faults(gconstpointer a, gconstpointer b) {
     return p->parameter < q->parameter ? -1 : p->parameter > q->parameter;
 }
 
+/// What a parameter is called in documents; behind those of the table come what a graft defines.
+static char *parameter_name(const FrPrototype *prototype, uint32_t parameter) {
+    const FrParamTable *table = fr_pgraph_table(prototype->kind);
+    return parameter < table->count
+               ? fr_param_attribute(&table->rows[parameter])
+               : g_strdup(g_array_index(prototype->defines, FrGraftDefine, parameter - table->count)
+                              .name);
+}
+
 // Each parameter that had no value somewhere is reported once, first instances first.
 static void report_faults(const FrBuild *build, int workers) {
     const FrExpansion *expansion = &build->expansion;
@@ -280,8 +293,7 @@ static void report_faults(const FrBuild *build, int workers) {
     for (guint k = 0; k < sorted->len; k++) {
         const FrValueFault *fault = g_ptr_array_index(sorted, k);
         const FrPrototype *prototype = fr_pgraph_prototype(expansion->graph, fault->component);
-        const FrParam *row = &fr_pgraph_table(prototype->kind)->rows[fault->parameter];
-        char *attribute = fr_param_attribute(row);
+        char *attribute = parameter_name(prototype, fault->parameter);
         char *what = g_strdup_printf("%s of '%s'", attribute, prototype->id);
         fr_expr_report_fault(&fault->fault, what, build->context->diags);
         g_free(what);
@@ -317,6 +329,7 @@ static FrStatus expand(FrBuild *build) {
     }
     while (status == FR_OK && expansion->level.count > 0) {
         status = expand_level(build);
+        fr_grafts_drop(&build->grafting);
         step_down(build);
     }
     if (build->levels != NULL) { // where the children of the last would be
@@ -393,6 +406,7 @@ static void begin_counts(FrPgraphCounts *counts, uint32_t components) {
 static FrStatus run(FrBuild *build, FrUnrolled *unrolled) {
     const FrPgraph *graph = build->expansion.graph;
     FrRecursions recursions;
+    fr_grafting_init(&build->grafting, build->graft);
     begin_counts(build->counts, fr_pgraph_count(graph));
     fr_recursions_find(&recursions, graph);
     FrStatus status = fr_pgraph_check_all(graph, &recursions, build->context->diags, false);
@@ -408,6 +422,7 @@ static FrStatus run(FrBuild *build, FrUnrolled *unrolled) {
         g_array_unref(build->expansion.fields);
     }
     fr_recursions_clear(&recursions);
+    fr_grafting_clear(&build->grafting);
     if (status == FR_OK) {
         fr_progress_report(build->context->progress, "build", 1);
     }
@@ -416,7 +431,14 @@ static FrStatus run(FrBuild *build, FrUnrolled *unrolled) {
 
 FrStatus fr_pgraph_build(const FrPgraph *graph, const FrContext *context, FrPlant **plant,
                          FrPgraphCounts *counts) {
-    FrBuild build = {.context = context, .counts = counts, .expansion = {.graph = graph}};
+    return fr_pgraph_build_grafted(graph, NULL, context, plant, counts);
+}
+
+FrStatus fr_pgraph_build_grafted(const FrPgraph *graph, const FrGraft *graft,
+                                 const FrContext *context, FrPlant **plant,
+                                 FrPgraphCounts *counts) {
+    FrBuild build = {
+        .context = context, .counts = counts, .graft = graft, .expansion = {.graph = graph}};
     FrUnrolled unrolled = {0};
     FrStatus status = run(&build, &unrolled);
     if (build.expansion.plant != NULL) {

@@ -2,12 +2,14 @@
 /// One build on its way, for the files that share the work of expand.c.
 #pragma once
 
-#include "pgraph/instance.h"
+#include "pgraph/graft.h"
 
 typedef struct FrBuild {
     FrExpansion expansion;
     const FrContext *context;
     FrPgraphCounts *counts;
+    const FrGraft *graft; ///< who grows grafts; NULL
+    FrGrafting grafting;
     uint64_t instances;        ///< of all levels so far
     uint64_t considered;       ///< with those that flags left out
     uint64_t taken_over;       ///< from the last build

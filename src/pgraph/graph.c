@@ -1,5 +1,7 @@
 #include "pgraph/graph.h"
 
+#include <string.h>
+
 static void span_hold(FrSpan span) {
     if (span.source != NULL) {
         fr_source_ref(span.source);
@@ -12,8 +14,15 @@ static void span_drop(FrSpan span) {
     }
 }
 
+static void define_clear(gpointer data) {
+    FrGraftDefine *define = data;
+    g_free(define->name);
+    fr_number_clear(&define->number);
+}
+
 static void prototype_clear(gpointer data) {
     FrPrototype *prototype = data;
+    g_clear_pointer(&prototype->defines, g_array_unref);
     fr_params_clear(fr_pgraph_table(prototype->kind), prototype->params);
     g_free(prototype->params);
     g_free(prototype->id);
@@ -72,6 +81,10 @@ uint32_t fr_pgraph_add(FrPgraph *graph, FrComponentKind kind, const char *id, Fr
         .params = g_malloc0(table->struct_size),
     };
     fr_params_init(table, prototype.params);
+    if (kind == FR_COMPONENT_GRAFT) {
+        prototype.defines = g_array_new(FALSE, FALSE, sizeof(FrGraftDefine));
+        g_array_set_clear_func(prototype.defines, define_clear);
+    }
     span_hold(span);
     g_array_append_val(graph->prototypes, prototype);
     uint32_t component = graph->prototypes->len - 1;
@@ -100,8 +113,8 @@ void *fr_pgraph_params(FrPgraph *graph, uint32_t component) {
     return fr_pgraph_prototype(graph, component)->params;
 }
 
-FrStatus fr_pgraph_link(FrPgraph *graph, uint32_t from, uint32_t to, FrLinkKind kind, FrSpan span,
-                        FrDiags *diags) {
+static FrStatus add_link(FrPgraph *graph, uint32_t from, uint32_t to, FrLinkKind kind, char symbol,
+                         FrSpan span, FrDiags *diags) {
     FR_ASSERT(from < fr_pgraph_count(graph) && to < fr_pgraph_count(graph));
     if (fr_pgraph_kind(graph, to) == FR_COMPONENT_CAMERA) {
         fr_diags_add(diags, FR_ERROR, "link-to-camera", span,
@@ -110,6 +123,9 @@ FrStatus fr_pgraph_link(FrPgraph *graph, uint32_t from, uint32_t to, FrLinkKind 
         return FR_ERR_DOCUMENT;
     }
     gint64 key = ((gint64)from << 32 | (gint64)to) * 3 + (gint64)kind;
+    if (kind == FR_LINK_SYMBOL) {
+        key = -1 - (((gint64)from << 27 | (gint64)to) << 7 | (gint64)symbol);
+    }
     if (g_hash_table_contains(graph->link_keys, &key)) {
         fr_diags_add(diags, FR_ERROR, "duplicate-link", span,
                      "'%s' is already linked to '%s' in this way", fr_pgraph_id(graph, from),
@@ -117,10 +133,45 @@ FrStatus fr_pgraph_link(FrPgraph *graph, uint32_t from, uint32_t to, FrLinkKind 
         return FR_ERR_DOCUMENT;
     }
     g_hash_table_add(graph->link_keys, g_memdup2(&key, sizeof key));
-    FrPgraphLink link = {.from = from, .to = to, .kind = kind, .span = span};
+    FrPgraphLink link = {.from = from, .to = to, .kind = kind, .symbol = symbol, .span = span};
     span_hold(span);
     g_array_append_val(graph->links, link);
     return FR_OK;
+}
+
+FrStatus fr_pgraph_link(FrPgraph *graph, uint32_t from, uint32_t to, FrLinkKind kind, FrSpan span,
+                        FrDiags *diags) {
+    FR_ASSERT(kind != FR_LINK_SYMBOL);
+    return add_link(graph, from, to, kind, '\0', span, diags);
+}
+
+FrStatus fr_pgraph_link_symbol(FrPgraph *graph, uint32_t from, uint32_t to, char symbol,
+                               FrSpan span, FrDiags *diags) {
+    if (fr_pgraph_kind(graph, from) != FR_COMPONENT_GRAFT) {
+        fr_diags_add(diags, FR_ERROR, "wrong-symbol", span, "'%s' is no graft, it has no symbols",
+                     fr_pgraph_id(graph, from));
+        return FR_ERR_DOCUMENT;
+    }
+    // What the turtle moves, turns and branches by cannot stand for something else.
+    if (!g_ascii_isalnum(symbol) || strchr("FfGg", symbol) != NULL) {
+        fr_diags_add(diags, FR_ERROR, "wrong-symbol", span,
+                     "a symbol that places something is a letter or digit, none of F, f, G, g");
+        return FR_ERR_DOCUMENT;
+    }
+    return add_link(graph, from, to, FR_LINK_SYMBOL, symbol, span, diags);
+}
+
+bool fr_pgraph_define(FrPgraph *graph, uint32_t graft, const char *name, const FrNumber *number) {
+    GArray *defines = fr_pgraph_prototype(graph, graft)->defines;
+    FR_ASSERT(defines != NULL);
+    for (guint k = 0; k < defines->len; k++) {
+        if (strcmp(g_array_index(defines, FrGraftDefine, k).name, name) == 0) {
+            return false;
+        }
+    }
+    FrGraftDefine define = {g_strdup(name), fr_number_copy(number)};
+    g_array_append_val(defines, define);
+    return true;
 }
 
 void fr_pgraph_add_material(FrPgraph *graph, FrMaterial *material) {

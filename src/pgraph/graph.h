@@ -6,17 +6,25 @@
 
 #include "pgraph/params.h"
 
+/// A number that the plant of a graft knows by this name.
+typedef struct FrGraftDefine {
+    char *name; ///< owned
+    FrNumber number;
+} FrGraftDefine;
+
 /// A component as the user declared it; instances are made after it.
 typedef struct FrPrototype {
     FrComponentKind kind;
     char *id; ///< owned
     FrSpan span;
-    void *params; ///< owned; the struct of the kind's table, begins with FrBasicParams
+    void *params;    ///< owned; the struct of the kind's table, begins with FrBasicParams
+    GArray *defines; ///< FrGraftDefine; NULL for kinds other than a graft
 } FrPrototype;
 
 typedef struct FrPgraphLink {
     uint32_t from, to;
     FrLinkKind kind;
+    char symbol; ///< for FR_LINK_SYMBOL, else 0
     FrSpan span;
 } FrPgraphLink;
 

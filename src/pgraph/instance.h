@@ -20,7 +20,8 @@ typedef struct FrExpansion {
     uint32_t first_organ;  ///< of this level
     GArray *fields;        ///< FrField
     uint32_t depth;        ///< of this level, from 0
-    const struct FrTwins *twins; ///< instances of the last build; NULL
+    const struct FrTwins *twins;       ///< instances of the last build; NULL
+    const struct FrGrafting *grafting; ///< what stands at this level's grafts
 } FrExpansion;
 
 /// Where and how large an instance is, its own transformation applied.
@@ -97,6 +98,7 @@ uint32_t fr_instance_leaf_shape(const FrExpansion *expansion, uint32_t row, uint
                                 FrEvaluator *evaluator);
 
 /// The kinds, each from the file of its name.
+void fr_make_graft(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 void fr_make_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
                   FrEvaluator *place);
 void fr_make_golden(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,

@@ -426,6 +426,9 @@ void fr_instance_make(const FrExpansion *expansion, uint32_t row, FrEvaluator *e
     case FR_COMPONENT_VARIATION:
         make_choice(expansion, row, evaluator);
         break;
+    case FR_COMPONENT_GRAFT:
+        fr_make_graft(expansion, row, evaluator);
+        break;
     case FR_COMPONENT_FFD:
     case FR_COMPONENT_HYPERPATCH:
     case FR_COMPONENT_WORLD:

@@ -1,6 +1,7 @@
 // Counting what an instance makes before anything is made.
 #include "pgraph/choice.h"
 #include "pgraph/global.h"
+#include "pgraph/graft.h"
 #include "pgraph/instance.h"
 
 #include <math.h>
@@ -85,6 +86,9 @@ void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator
         fr_instance_enter(expansion, row, evaluator);
         level->places[row] = prepared->bears ? count_children(prepared, evaluator) : 0;
         break;
+    case FR_COMPONENT_GRAFT:
+        fr_graft_measure(expansion, row);
+        break;
     case FR_COMPONENT_REVO:
         level->organ_count[row] = prepared->shape != FR_NONE;
         break;
@@ -124,7 +128,10 @@ uint32_t fr_instance_children(const FrExpansion *expansion, uint32_t row, FrEval
         }
         const FrStageLink *link = fr_stage_link(expansion, stage, k);
         const FrFlags *flags = &fr_stage_prepared(expansion, link->stage)->flags;
-        if (!fr_link_is_multiplied(kind, link->kind)) {
+        if (link->kind == FR_LINK_SYMBOL) {
+            const FrScion *scion = fr_scion_of(expansion->grafting, row);
+            count += fr_flags_count(flags, fr_scion_places(scion, link->symbol));
+        } else if (!fr_link_is_multiplied(kind, link->kind)) {
             count += fr_flags_allow(flags, level->i[row], level->n[row]) * level->tips[row];
         } else if (stem.limbs != NULL && !flags->is_all) {
             count += flagged_branches(&stem, flags);

@@ -211,4 +211,5 @@ enum {
 enum { FR_PLACE_AUTO, FR_PLACE_ON_AXIS, FR_PLACE_ON_SURFACE };
 
 #include "pgraph/params_global.h"
+#include "pgraph/params_graft.h"
 #include "pgraph/params_spread.h"

@@ -323,6 +323,24 @@ FrShape fr_leaf_shape(const FrPrepared *prepared, FrEvaluator *evaluator) {
     return shape;
 }
 
+static void prepare_graft(FrPrepared *made, const FrPgraph *graph, uint32_t component) {
+    made->defines = fr_pgraph_prototype(graph, component)->defines;
+    for (guint k = 0; k < made->defines->len; k++) {
+        const FrNumber *number = &g_array_index(made->defines, FrGraftDefine, k).number;
+        made->varies |= !number->is_constant;
+        made->uses_height |= fr_number_uses(number, FR_VAR_height);
+    }
+    GString *symbols = g_string_new(NULL);
+    for (uint32_t k = 0; k < graph->links->len; k++) {
+        const FrPgraphLink *link = fr_pgraph_link_at(graph, k);
+        if (link->from == component && link->kind == FR_LINK_SYMBOL &&
+            strchr(symbols->str, link->symbol) == NULL) {
+            g_string_append_c(symbols, link->symbol);
+        }
+    }
+    made->symbols = g_string_free(symbols, symbols->len == 0);
+}
+
 static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t component, FrPlant *plant,
                         GHashTable *faults) {
     const FrPrototype *prototype = fr_pgraph_prototype(graph, component);
@@ -364,6 +382,9 @@ static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t compon
         break;
     case FR_COMPONENT_REVO:
         fr_prepare_revo(made, plant);
+        break;
+    case FR_COMPONENT_GRAFT:
+        prepare_graft(made, graph, component);
         break;
     case FR_COMPONENT_VARIATION:
         made->weights = fr_weights_new(graph, component, NULL);
@@ -427,6 +448,7 @@ void fr_prepared_free(FrPrepared *prepared, uint32_t count) {
     for (uint32_t c = 0; c < count; c++) {
         fr_flags_clear(&prepared[c].flags);
         g_free(prepared[c].variants);
+        g_free(prepared[c].symbols);
         g_free(prepared[c].density);
         fr_curve_unref(prepared[c].crown);
         fr_revolved_free(prepared[c].revolved);

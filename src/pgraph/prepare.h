@@ -44,6 +44,8 @@ typedef struct FrPrepared {
     uint32_t number_times;             ///< … and how often it has so many
     struct FrRevolved *revolved;       ///< surface of a phyllotaxis; owned
     GArray *weights;                   ///< FrWeight, of a variation; owned
+    const GArray *defines;             ///< FrGraftDefine, of a graft
+    char *symbols;                     ///< of its links; owned; NULL
     uint32_t deformation;              ///< of an FFD or hyperpatch, of the plant
     double step;                       ///< m, of internodes in a scope or field
     double low, top;                   ///< of a revo: its lowest point; where its outline ends

@@ -57,6 +57,10 @@ static const FrParam world_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_WORLD_PARA
 static const FrParam force_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_FORCE_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
 
+#define FR_PARAM_STRUCT FrGraftParams
+static const FrParam graft_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_GRAFT_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
+
 #define TABLE(name, kind, type, text)                                                              \
     [FR_COMPONENT_##kind] = {.element = #name,                                                     \
                              .meaning = text,                                                      \
@@ -85,6 +89,8 @@ static const FrParamTable tables[FR_COMPONENT_COUNT] = {
           "deforms all that follows by moving control points of a box"),
     TABLE(world, WORLD, FrWorldParams, "gravity and light for all that follows"),
     TABLE(force, FORCE, FrForceParams, "draws the stems of all that follows"),
+    TABLE(graft, GRAFT, FrGraftParams,
+          "a plant of the document, whose symbols place what is linked to them"),
 };
 
 const FrParamTable *fr_pgraph_table(FrComponentKind kind) {

@@ -80,7 +80,7 @@ static bool add_link(Unroller *unroller, const Key *from, const FrPgraphLink *li
     if (stage == FR_NONE) {
         return false;
     }
-    FrStageLink made = {.stage = stage, .kind = link->kind};
+    FrStageLink made = {.stage = stage, .kind = link->kind, .symbol = link->symbol};
     g_array_append_val(unroller->made->links, made);
     return true;
 }

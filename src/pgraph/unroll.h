@@ -12,6 +12,7 @@
 typedef struct FrStageLink {
     uint32_t stage; ///< what it makes
     FrLinkKind kind;
+    char symbol; ///< for FR_LINK_SYMBOL
 } FrStageLink;
 
 typedef struct FrStage {
@@ -37,5 +38,6 @@ uint64_t fr_unrolled_least(const FrUnrolled *unrolled, const FrPgraph *graph,
                            const uint64_t *multiplicity, const bool *is_flagged, uint32_t *culprit);
 /// Whether component c of that kind makes several children for a link.
 static inline bool fr_link_is_multiplied(FrComponentKind from, FrLinkKind link) {
-    return fr_is_spreading(from) || (from == FR_COMPONENT_TREE && link == FR_LINK_BRANCH);
+    return fr_is_spreading(from) || link == FR_LINK_SYMBOL ||
+           (from == FR_COMPONENT_TREE && link == FR_LINK_BRANCH);
 }

@@ -1,18 +1,7 @@
 /// Varied plants of a document.
 #include "scene/varied.h"
 
-#include <string.h>
-
-static const FrPlantDef *find_plant(const FrDocument *document, const char *id) {
-    const GPtrArray *plants = fr_document_plants(document);
-    for (guint i = 0; i < plants->len; i++) {
-        const FrPlantDef *plant = g_ptr_array_index(plants, i);
-        if (strcmp(plant->id, id) == 0) {
-            return plant;
-        }
-    }
-    return NULL;
-}
+#include "scene/find.h"
 
 FrStatus fr_varied_new(const FrDocument *document, const FrPlantDef *definition,
                        const FrContext *context, FrVaried **varied) {
@@ -21,7 +10,7 @@ FrStatus fr_varied_new(const FrDocument *document, const FrPlantDef *definition,
     const FrPlantDef *base = definition;
     const FrVary *vary = definition->vary;
     if (vary != NULL) {
-        base = find_plant(document, fr_vary_params(definition->vary)->base);
+        base = fr_scene_find_plant(document, fr_vary_params(definition->vary)->base);
         FR_ASSERT(base != NULL && base->kind != FR_PLANT_VARIED);
     } else {
         FrVaryParams params;

@@ -52,6 +52,24 @@ static void wrong_numbers(void) {
     error_at(HOLD("", "w : A(r)\n<define id='r'/>"), "missing-attribute", 3, 2);
 }
 
+#define GRAFT(attributes, within, rest)                                                            \
+    "<frond version='1'>\n<plant id='a'><pgraph><horn id='h'/>"                                    \
+    "<graft id='g'" attributes ">" within "</graft>\n" rest "</pgraph></plant>\n"                  \
+    "<plant id='twig'><lsystem>w : A(r)<define id='r' value='1'/></lsystem></plant></frond>"
+
+static void wrong_grafts(void) {
+    error_at(GRAFT(" plant='twgi'", "", ""), "unknown-plant", 2, 58);
+    error_at(GRAFT(" plant='a'", "", ""), "wrong-graft", 2, 58);
+    error_at(GRAFT("", "", ""), "missing-attribute", 2, 38);
+    error_at(GRAFT(" plant='twig'", "<define id='s' value='1'/>", ""), "unused-value", 2, 76);
+    error_at(GRAFT(" plant='twig'", "", "<link from='h' to='g' symbol='L'/>"), "wrong-symbol", 3,
+             31);
+    error_at(GRAFT(" plant='twig'", "", "<link from='g' to='h' symbol='Leaf'/>"), "wrong-symbol", 3,
+             31);
+    error_at(GRAFT(" plant='twig'", "", "<link from='g' to='h' symbol='+'/>"), "wrong-symbol", 3,
+             31);
+}
+
 /// The string of the first plant after `steps` steps.
 static char *derived(const FrDocument *document, uint64_t steps) {
     FrContext context = fr_context_default();
@@ -131,6 +149,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/document/lsystem/wrong definitions have a code and a place",
                     wrong_definitions);
     g_test_add_func("/document/lsystem/wrong numbers have a code and a place", wrong_numbers);
+    g_test_add_func("/document/lsystem/wrong grafts have a code and a place", wrong_grafts);
     g_test_add_func("/document/lsystem/a number stands in the place of a macro of its name",
                     numbers);
     g_test_add_func("/document/lsystem/a number is defined for #ifndef", conditions);

@@ -340,7 +340,7 @@ static FrComponentKind pick_kind(Maker *maker) {
     static const FrComponentKind usual[] = {FR_COMPONENT_TREE, FR_COMPONENT_TREE, FR_COMPONENT_HORN,
                                             FR_COMPONENT_LEAF, FR_COMPONENT_SIMPLE};
     return one_in(maker, 2) ? usual[pick(maker, G_N_ELEMENTS(usual))]
-                            : (FrComponentKind)pick(maker, FR_COMPONENT_COUNT);
+                            : (FrComponentKind)pick(maker, FR_COMPONENT_GRAFT); // needs a plant
 }
 
 static void append_link(Maker *maker, uint32_t from, uint32_t to) {

@@ -108,6 +108,34 @@ static void varied(void) {
     fr_document_free(document);
 }
 
+#define TREE                                                                                       \
+    "<plant id='tree' seed='2'><pgraph><tree id='t' length='2' radius='0.1' number='6'/>"          \
+    "<graft id='g' plant='twig' steps='3'><define id='l' value='0.1..0.3'/></graft>"               \
+    "<leaf id='leaf'/><link from='t' to='g' kind='branch'/><link from='g' to='leaf' symbol='L'/>"  \
+    "</pgraph></plant>"                                                                            \
+    "<plant id='twig'><lsystem steps='2'><define id='l' value='0.5'/>"                             \
+    "w : A\np1 : A -> F(l)[+(30+ran(20))L(0.5)]A : 1\np2 : A -> F(l)/(90)A : 1</lsystem></plant>"
+
+static void grafts(void) {
+    FrDocument *document;
+    FrScene *scene = built(&document, "<frond version='1'>" TREE "</frond>", -1);
+    const FrScenePlant *tree = plant_at(scene, 0);
+    g_assert_true(fr_plant_is_valid(tree->plant, NULL));
+    g_assert_cmpuint(tree->by_component[1], ==, 6);
+    uint64_t leaves = tree->by_component[2];
+    g_assert_cmpuint(leaves, ==, tree->plant->organs.count);
+    g_assert_true(leaves > 0 && leaves < 18); // three steps each, every other one a leaf by chance
+    const FrPlant *plant = tree->plant;
+    float first = plant->nodes.length[plant->axes.first[1]];
+    float last = plant->nodes.length[plant->axes.first[plant->axes.count - 1]];
+    g_assert_cmpfloat_with_epsilon(first, 0.1, 1e-6);
+    g_assert_cmpfloat_with_epsilon(last, 0.3, 1e-6);
+    fr_scene_free(scene);
+    fr_document_free(document);
+    g_assert_cmpuint(digest_of("<frond version='1'>" TREE "</frond>", 1), !=,
+                     digest_of("<frond version='1'>" TREE "</frond>", 3));
+}
+
 static void limits(void) {
     FrContext context = fr_context_default();
     context.diags = fr_diags_new();
@@ -137,6 +165,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/scene/lsystem/every bit of a seed counts", seeds);
     g_test_add_func("/scene/lsystem/its text's seed holds unless the plant has one", own_seed);
     g_test_add_func("/scene/lsystem/it can be varied", varied);
+    g_test_add_func("/scene/lsystem/it stands in a p-graph and places components", grafts);
     g_test_add_func("/scene/lsystem/runaway growth names the production in the document", limits);
     return g_test_run();
 }
