@@ -119,7 +119,8 @@ typedef struct FrPgraphBuild FrPgraphBuild;
 /// Builds `graph` as fr_pgraph_build() does, bit for bit, but takes from `last` (of this or another
 /// graph; NULL: nothing) the instances that depend on nothing that differs. Which component an
 /// instance is of tells its id. A change of leaf shapes or materials alone makes no instance.
-/// `last` stays as it is, whatever happens; the two may share memory.
+/// `last` stays as it is, whatever happens; the two may share memory. A graph with grafts is
+/// refused: what it is made of is not all in it.
 FR_API FR_MUST_USE FrStatus fr_pgraph_rebuild(const FrPgraph *graph, const FrPgraphBuild *last,
                                               const FrContext *context, FrPgraphBuild **build);
 FR_API void fr_pgraph_build_free(FrPgraphBuild *build);

@@ -22,7 +22,11 @@ static inline Shipped shipped_load(const char *path) {
     const GPtrArray *plants = fr_document_plants(shipped.document);
     for (guint i = 0; i < plants->len && shipped.plant == NULL; i++) {
         const FrPlantDef *plant = g_ptr_array_index(plants, i);
-        shipped.plant = plant->kind == FR_PLANT_PGRAPH ? plant : NULL;
+        bool is_whole = plant->kind == FR_PLANT_PGRAPH;
+        for (uint32_t c = 0; c < fr_pgraph_count(plant->pgraph) && is_whole; c++) {
+            is_whole = fr_pgraph_kind(plant->pgraph, c) != FR_COMPONENT_GRAFT;
+        }
+        shipped.plant = is_whole ? plant : NULL;
     }
     return shipped;
 }
