@@ -10,6 +10,9 @@
 
 enum { FOLDERS_UP = 4 };
 
+/// What `frond new` begins with where no species is named.
+static const char usual[] = "plant";
+
 /// `folder`/presets if it is there, else NULL.
 static char *presets_in(const char *folder) {
     char *presets = g_build_filename(folder, "presets", NULL);
@@ -168,18 +171,17 @@ FrStatus cli_new(CliSession *session) {
     }
     GPtrArray *names = list_presets(folder);
     FrStatus status = FR_ERR_USAGE;
-    if (options->preset == NULL) {
-        cli_message("new needs --preset SPECIES; frond presets lists them");
-    } else if (!g_ptr_array_find_with_equal_func(names, options->preset, g_str_equal, NULL)) {
-        char *hint = cli_hint(options->preset, (const char *const *)names->pdata, names->len);
-        cli_message("there is no preset '%s'%s", options->preset,
+    const char *preset = options->preset == NULL ? usual : options->preset;
+    if (!g_ptr_array_find_with_equal_func(names, preset, g_str_equal, NULL)) {
+        char *hint = cli_hint(preset, (const char *const *)names->pdata, names->len);
+        cli_message("there is no preset '%s'%s", preset,
                     *hint == '\0' ? "; frond presets lists them" : hint);
         g_free(hint);
     } else {
         const char *name = g_ptr_array_index(options->files, 0);
         char *path =
             g_str_has_suffix(name, ".frond") ? g_strdup(name) : g_strconcat(name, ".frond", NULL);
-        status = copy_preset(folder, options->preset, path);
+        status = copy_preset(folder, preset, path);
         if (status == FR_OK && !options->is_quiet) {
             printf("%s\n", path);
         }

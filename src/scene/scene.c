@@ -73,6 +73,27 @@ static FrStatus vary_plant(Build *build, const FrPlantDef *definition, uint64_t 
     return status;
 }
 
+static bool can_be_seen(const FrPlant *plant) {
+    bool is_seen = false;
+    for (uint32_t i = 0; i < plant->organs.count && !is_seen; i++) {
+        is_seen = (plant->organs.flags[i] & (FR_SHED | FR_HIDDEN)) == 0;
+    }
+    for (uint32_t i = 0; i < plant->nodes.count && !is_seen; i++) {
+        unsigned flags = plant->nodes.flags[i] | plant->axes.flags[plant->nodes.axis[i]];
+        is_seen = plant->nodes.length[i] > 0 && (flags & (FR_SHED | FR_HIDDEN)) == 0;
+    }
+    return is_seen;
+}
+
+static void warn_of_nothing(const Build *build, const FrPlantDef *definition,
+                            const FrPlant *plant) {
+    if (!can_be_seen(plant)) {
+        fr_diags_add(build->context->diags, FR_WARNING, "nothing-to-see", definition->span,
+                     "nothing of the plant '%s' can be seen: it has no stem, leaf or solid",
+                     definition->id);
+    }
+}
+
 /// Builds a definition with a seed and adds it to the scene.
 static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t seed) {
     if (definition->kind == FR_PLANT_VARIED) {
@@ -81,6 +102,7 @@ static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t 
     FrScenePlant made;
     FrStatus status = fr_scene_grow(build->document, definition, seed, build->context, &made, NULL);
     if (status == FR_OK) {
+        warn_of_nothing(build, definition, made.plant);
         g_array_append_val(build->scene->plants, made);
         build->bytes = fr_count_add(build->bytes, fr_plant_bytes(made.plant));
         status = fr_limit_check(build->bytes, build->context->limits.bytes, "bytes", "the scene",

@@ -257,7 +257,6 @@ static void test_new(void) {
     static const Command rows[] = {
         {"presets", 0, "oak              An oak\n", ""},
         {"presets --json", 0, "[*\"name\": \"oak\"*\"title\": \"An oak\"*]\n", ""},
-        {"new mine", 2, "", "frond: new needs --preset*"},
         {"new mine --preset oka", 2, "", "frond: there is no preset 'oka'; did you mean 'oak'?\n"},
         {"new mine --preset ../oak", 2, "", "frond: there is no preset*"},
         {"new mine --preset oak", 0, "mine.frond\n", ""},
@@ -274,6 +273,11 @@ static void test_new(void) {
     g_assert_cmpint(did.exit, ==, 4);
     clear(&did);
     g_unsetenv("FROND_DATA");
+    // Without a species a young tree, from the presets of the program itself.
+    did = run("new young");
+    expect(&did, &(Command){"new young", 0, "young.frond\n", ""});
+    did = run("build young.frond");
+    expect(&did, &(Command){"build young.frond", 0, "", ""});
     g_remove("presets/oak.frond");
     leave_folder(folder, previous);
 }
@@ -298,6 +302,32 @@ static void test_interrupted(void) {
     leave_folder(folder, previous);
 }
 
+/// Each shell's completion offers every verb that the program has.
+static void test_completions(void) {
+    static const char *const files[] = {"data/frond.bash", "data/frond.zsh", "data/frond.fish"};
+    Run did = run("help");
+    char **lines = g_strsplit(did.out, "\n", -1);
+    for (size_t f = 0; f < G_N_ELEMENTS(files); f++) {
+        char *path = g_build_filename(g_getenv("FROND_SOURCE"), files[f], NULL), *text;
+        g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
+        guint verbs = 0;
+        for (char **line = lines; *line != NULL; line++) {
+            if (g_str_has_prefix(*line, "  ") && g_ascii_isalpha((*line)[2])) {
+                char *verb = g_strndup(*line + 2, strcspn(*line + 2, " "));
+                g_test_message("%s in %s", verb, files[f]);
+                g_assert_nonnull(strstr(text, verb));
+                g_free(verb);
+                verbs++;
+            }
+        }
+        g_assert_cmpuint(verbs, >=, 10);
+        g_free(text);
+        g_free(path);
+    }
+    g_strfreev(lines);
+    clear(&did);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/cli/commands end as they should and say why", test_commands);
@@ -309,5 +339,6 @@ int main(int argc, char **argv) {
     g_test_add_func("/cli/a seed gives the same plant for any number of threads", test_same_seed);
     g_test_add_func("/cli/a preset begins a document and overwrites none", test_new);
     g_test_add_func("/cli/an interrupt leaves no file", test_interrupted);
+    g_test_add_func("/cli/completions offer every verb", test_completions);
     return g_test_run();
 }

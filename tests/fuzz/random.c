@@ -245,6 +245,9 @@ int main(int argc, char **argv) {
     signal(SIGPROF, on_signal);
     signal(SIGABRT, on_signal);
     signal(SIGSEGV, on_signal);
+    signal(SIGTRAP, on_signal);
+    signal(SIGFPE, on_signal);
+    signal(SIGBUS, on_signal);
     printf("1..1\n");
     for (uint64_t i = 0; i < tally.count; i++) {
         try_document(&tally, tally.begin + i);

@@ -170,6 +170,36 @@ static void test_cancelled(void) {
     fr_progress_free(context.progress);
 }
 
+static void test_nothing_to_see(void) {
+    static const struct {
+        const char *component;
+        bool is_seen;
+    } rows[] = {
+        {"<phiball id='c'/>", false},
+        {"<horn id='c' length='0'/>", false},
+        {"<simple id='c' primitive='none'/>", false},
+        {"<simple id='c'/>", true},
+        {"<horn id='c'/>", true},
+        {"<horn id='c' primitive='sphere'/>", true},
+        {"<leaf id='c'/>", true},
+    };
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        char *text =
+            g_strdup_printf("<frond version='1'><plant id='p'><pgraph>%s</pgraph></plant></frond>",
+                            rows[i].component);
+        Built built = build(text, -1);
+        bool is_warned = false;
+        for (size_t k = 0; k < fr_diags_count(built.diags); k++) {
+            is_warned |= strcmp(fr_diags_get(built.diags, k)->code, "nothing-to-see") == 0;
+        }
+        g_test_message("%s", rows[i].component);
+        g_assert_cmpint(built.status, ==, FR_OK);
+        g_assert_true(is_warned == !rows[i].is_seen);
+        forget(&built);
+        g_free(text);
+    }
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/scene/the first plant stands at the origin without places",
@@ -179,6 +209,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/scene/the digest is the same for any number of threads", test_threads);
     g_test_add_func("/scene/bounds hold everything", test_bounds);
     g_test_add_func("/scene/nothing is built without plants or over a limit", test_refused);
+    g_test_add_func("/scene/a plant with nothing to see gets a warning", test_nothing_to_see);
     g_test_add_func("/scene/building can be stopped", test_cancelled);
     return g_test_run();
 }
