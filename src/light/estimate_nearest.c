@@ -6,8 +6,6 @@
 // cells that are searched double together.
 #include "light/estimate.h"
 
-#include <stdlib.h>
-
 /// A ray near a point.
 typedef struct Near {
     double square;
@@ -33,7 +31,7 @@ static void note(GArray *found, const FrRay *ray, uint32_t slot, double square) 
 }
 
 static FrLightAnswer answer_from(GArray *found, const FrPaths *paths, const FrEstimator *how) {
-    qsort(found->data, found->len, sizeof(Near), compare_near);
+    g_array_sort(found, compare_near);
     uint32_t count = MIN(found->len, how->neighbours);
     FrTally tally = {0};
     FrEstimator at = *how;

@@ -289,7 +289,9 @@ FrStatus fr_surfaces_set(FrSurfaces *surfaces, const FrLightScene *scene, const 
     surfaces->last = surfaces->count;
     surfaces->corners = g_array_new(FALSE, FALSE, sizeof(float));
     surfaces->keys = g_array_new(FALSE, FALSE, sizeof(uint64_t));
-    memset(surfaces->is_seen, 0, surfaces->count * sizeof *surfaces->is_seen);
+    for (uint32_t i = 0; i < surfaces->count; i++) {
+        surfaces->is_seen[i] = false;
+    }
     set_stands(surfaces, scene);
     *removed = 0;
     for (uint32_t i = 0; i < surfaces->last; i++) {
