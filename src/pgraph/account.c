@@ -40,7 +40,8 @@ FrLevelSums fr_level_sum(const FrExpansion *expansion) {
         if (fr_stage_prepared(expansion, level->stage[row])->kind == FR_COMPONENT_GRAFT) {
             children += level->places[row]; // those of every link
         } else if (level->places[row] > 0) {
-            children += (uint64_t)level->places[row] * multiplied_links(expansion, row);
+            // Places on which nothing stands are worked out too.
+            children += (uint64_t)level->places[row] * MAX(multiplied_links(expansion, row), 1);
         }
         sums.considered = fr_count_add(sums.considered, children);
         sums.nodes += level->node_count[row];

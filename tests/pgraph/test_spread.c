@@ -364,6 +364,20 @@ static void limits(void) {
     }
 }
 
+// Places are counted even where nothing will stand on them.
+static void limits_of_empty_places(void) {
+    static const char *const texts[] = {
+        "scatter S mode=density;radius=10000\nleaf L enabled=no\nS = L",
+        "scatter S mode=density;radius=10000\nleaf L only=25\nS = L",
+    };
+    for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
+        Built built = build_graph(graph_read(texts[i]), NULL);
+        g_assert_cmpint(built.status, ==, FR_ERR_LIMIT);
+        g_assert_true(built_has(&built, "limit-instances"));
+        built_free(built);
+    }
+}
+
 static void degenerate(void) {
     built_free(build("phyllotaxis P outline=0,0 0,1;number=9\nleaf L\nP - L"));
     built_free(build("phyllotaxis P outline=1,1 1,1;number=9;start=1;end=0\nleaf L\nP - L"));
@@ -421,6 +435,7 @@ int main(int argc, char **argv) {
     TEST("wrong weights are errors", variation_with_wrong_weights);
     TEST("spread plants are the same for any number of threads", same_for_any_threads);
     TEST("multipliers count before they make", limits);
+    TEST("multipliers count places on which nothing stands", limits_of_empty_places);
     TEST("empty outlines and radii make no harm", degenerate);
     return g_test_run();
 }
