@@ -157,17 +157,24 @@ FR_API const FrLstring *fr_lderivation_string(const FrLderivation *derivation);
 FR_API FR_MUST_USE FrStatus fr_lderivation_homomorphism(FrLderivation *derivation,
                                                         const FrContext *context,
                                                         FrLstring **string);
+/// How many modules the string has after homomorphism. Changes nothing, not even random numbers.
+FR_API FR_MUST_USE FrStatus fr_lderivation_count(FrLderivation *derivation,
+                                                 const FrContext *context, uint64_t *modules);
 FR_API void fr_lstring_free(FrLstring *string);
 
 // ---- turtle -----------------------------------------------------------------------------------
 
 /// What the turtle drew. Lengths in units of the file, the box in its coordinates (y up).
 typedef struct FrLdrawn {
-    uint64_t modules;  ///< interpreted, after homomorphism
-    uint64_t segments; ///< of F and G, those without length left out
-    double length;     ///< of all segments
-    double min[3], max[3];
-    uint64_t spheres, discs, polygons, surfaces, cylinders;
+    uint64_t modules;      ///< interpreted, after homomorphism
+    uint64_t segments;     ///< of F and G and, as lines, of generalized cylinders; none that is
+                           ///< shorter than 0.00316 (its square 0.00001)
+    double length;         ///< of all segments
+    double min[3], max[3]; ///< in the file's axes, y up: of the turtle's places, the control points
+                           ///< of surfaces, the boxes of balls and discs, the rings of
+                           ///< cylinders; not of line widths
+    uint64_t spheres, discs, polygons, surfaces;
+    uint64_t cylinders; ///< spans of generalized cylinders
 } FrLdrawn;
 
 /// Draws the string: homomorphism, then the turtle. `drawn` may be NULL. The file's y axis is the

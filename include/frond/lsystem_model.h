@@ -6,7 +6,7 @@
 ///     fr_lmodel_define(model, "angle", &number, span);
 ///     fr_lmodel_compile(model, NULL, folder, &context);      reads params.file
 ///     FrLsettings settings = fr_lmodel_settings(model);
-///     fr_lmodel_grow(model, &settings, &context, &plant, NULL);
+///     fr_lmodel_grow(model, &settings, &context, &plant, NULL, NULL);
 #pragma once
 
 #include "frond/lsystem.h"
@@ -77,7 +77,8 @@ FR_API FrLsettings fr_lmodel_settings(const FrLmodel *model);
 /// Begins a derivation; values that are NULL are those for the settings' seed.
 FR_API FR_MUST_USE FrStatus fr_lmodel_derive(const FrLmodel *model, const FrLsettings *settings,
                                              const FrContext *context, FrLderivation **derivation);
-/// The same to its end, and draws. `modules` (may be NULL) receives the length of the string.
+/// The same to its end, and draws. `modules` (may be NULL) receives the length of the string,
+/// `drawn` (may be NULL) what the turtle drew.
 FR_API FR_MUST_USE FrStatus fr_lmodel_grow(const FrLmodel *model, const FrLsettings *settings,
                                            const FrContext *context, FrPlant **plant,
-                                           uint64_t *modules);
+                                           uint64_t *modules, FrLdrawn *drawn);

@@ -12,6 +12,7 @@ typedef struct FrScenePlant {
     uint64_t instances;
     uint64_t *by_component; ///< instances by component, as many as plant->components has
     uint64_t modules;       ///< of the string, if an L-system made it
+    FrLdrawn drawn;         ///< by its turtle
 } FrScenePlant;
 
 typedef struct FrStand {

@@ -40,6 +40,7 @@ typedef struct CliOptions {
     char *plant;                   ///< to vary, NULL: the first that is a variation
     char *view;                    ///< of an L-system, NULL: the .v beside it if there is one
     bool prints_count;             ///< derive --print count
+    bool prints_steps;             ///< derive --print steps
     bool is_json, is_diag_json, is_quiet, is_verbose, wants_help, wants_version;
 } CliOptions;
 
@@ -111,6 +112,8 @@ void cli_progress_free(FrProgress *progress);
 
 // ---- stats.c ----------------------------------------------------------------------------------
 
+/// What a turtle drew, as an object.
+json_t *cli_drawn_json(const FrLdrawn *drawn);
 /// Writes --stats. `io` is NULL where no model was written.
 FR_MUST_USE FrStatus cli_stats_write(CliSession *session, const char *document,
                                      const FrScene *scene, const FrIoStats *io);

@@ -160,9 +160,10 @@ static bool take_view(CliOptions *options, const char *value) {
 
 static bool take_print(CliOptions *options, const char *value) {
     options->prints_count = strcmp(value, "count") == 0;
-    bool is_right = options->prints_count || strcmp(value, "string") == 0;
+    options->prints_steps = strcmp(value, "steps") == 0;
+    bool is_right = options->prints_count || options->prints_steps || strcmp(value, "string") == 0;
     if (!is_right) {
-        cli_message("--print takes string or count, not '%s'", value);
+        cli_message("--print takes string, count or steps, not '%s'", value);
     }
     return is_right;
 }
@@ -226,7 +227,8 @@ static const OptionRow rows[] = {
      take_nurbs},
     {"steps", 0, "N", READING, "steps of an L-system", take_steps},
     {"view", 0, "FILE", READING, "the view (.v) of an L-system", take_view},
-    {"print", 0, "WHAT", CLI_DERIVE, "string (default) or count", take_print},
+    {"print", 0, "WHAT", CLI_DERIVE, "string (default), count, or steps: counts of each",
+     take_print},
     {"count", 0, "N", CLI_VARY, "instances; 7 if not given", take_count},
     {"plant", 0, "NAME", CLI_VARY | CLI_DERIVE, "the plant to vary or derive", take_plant},
     {"size", 0, "WxH", CLI_RENDER | CLI_VARY, "pixels of the picture, of each picture of a sheet",

@@ -49,6 +49,16 @@ static void set_text(json_t *object, const char *key, const char *text) {
     json_object_set_new(object, key, json_string(text));
 }
 
+json_t *cli_drawn_json(const FrLdrawn *drawn) {
+    return json_pack("{s:I, s:I, s:f, s:[fff], s:[fff], s:I, s:I, s:I, s:I, s:I}", "modules",
+                     (json_int_t)drawn->modules, "segments", (json_int_t)drawn->segments, "length",
+                     drawn->length, "min", drawn->min[0], drawn->min[1], drawn->min[2], "max",
+                     drawn->max[0], drawn->max[1], drawn->max[2], "spheres",
+                     (json_int_t)drawn->spheres, "discs", (json_int_t)drawn->discs, "polygons",
+                     (json_int_t)drawn->polygons, "surfaces", (json_int_t)drawn->surfaces,
+                     "cylinders", (json_int_t)drawn->cylinders);
+}
+
 static json_t *seconds_of(const CliSession *session, const FrScene *scene, const FrIoStats *io) {
     json_t *seconds = json_object();
     json_object_set_new(seconds, "read", json_real(session->read_seconds));
@@ -93,6 +103,18 @@ static uint64_t peak_bytes(void) {
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
 }
 
+/// What the turtle of each L-system drew, in the order of the plants.
+static json_t *drawn_of(const FrScene *scene) {
+    json_t *list = json_array();
+    for (guint i = 0; i < scene->plants->len - scene->obstacles; i++) {
+        const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, i);
+        if (built->modules > 0) {
+            json_array_append_new(list, cli_drawn_json(&built->drawn));
+        }
+    }
+    return list;
+}
+
 static json_t *make_stats(const CliSession *session, const char *document, const FrScene *scene,
                           const FrIoStats *io) {
     Totals totals = count_scene(scene);
@@ -112,6 +134,7 @@ static json_t *make_stats(const CliSession *session, const char *document, const
     }
     if (totals.modules > 0) {
         set_count(stats, "modules", totals.modules);
+        json_object_set_new(stats, "drawn", drawn_of(scene));
     }
     json_decref(totals.by_component);
     set_count(stats, "plants", totals.plants);
@@ -135,7 +158,7 @@ static json_t *make_stats(const CliSession *session, const char *document, const
 FrStatus cli_stats_write(CliSession *session, const char *document, const FrScene *scene,
                          const FrIoStats *io) {
     json_t *stats = make_stats(session, document, scene, io);
-    char *text = json_dumps(stats, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+    char *text = json_dumps(stats, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
     json_decref(stats);
     FrStatus status = FR_OK;
     if (strcmp(session->options->stats, "-") == 0) {

@@ -42,6 +42,26 @@ static FrStatus derive_open(CliSession *session, FrLderivation *derivation) {
     }
 }
 
+/// A line for each step: its number, the modules, and how many they are after homomorphism.
+static FrStatus derive_steps(CliSession *session, FrLderivation *derivation) {
+    for (;;) {
+        uint64_t step = fr_lderivation_step(derivation), interpreted;
+        FrStatus status = fr_lderivation_count(derivation, &session->context, &interpreted);
+        if (status != FR_OK) {
+            return status;
+        }
+        printf("%" G_GUINT64_FORMAT " %" G_GUINT64_FORMAT " %" G_GUINT64_FORMAT "\n", step,
+               fr_lstring_count(fr_lderivation_string(derivation)), interpreted);
+        if (step >= fr_lderivation_length(derivation) || fr_lderivation_is_stopped(derivation)) {
+            return FR_OK;
+        }
+        status = fr_lderivation_run(derivation, 1, &session->context);
+        if (status != FR_OK) {
+            return status;
+        }
+    }
+}
+
 /// The L-system that is named, else the first; NULL with a message.
 static const FrPlantDef *find_lsystem(const CliSession *session, const FrDocument *document) {
     const char *wanted = session->options->plant;
@@ -66,7 +86,10 @@ static FrStatus derive(CliSession *session, const FrPlantDef *plant) {
     if (status != FR_OK) {
         return status;
     }
-    if (fr_lsystem_is_open(fr_lmodel_system(plant->lsystem))) {
+    if (session->options->prints_steps) {
+        status = derive_steps(session, derivation);
+    } else if (fr_lsystem_is_open(fr_lmodel_system(plant->lsystem)) &&
+               !session->options->prints_count) {
         status = derive_open(session, derivation);
     } else {
         status =

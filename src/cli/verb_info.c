@@ -11,6 +11,7 @@ typedef struct Grown {
     FrPgraphCounts counts;
     CliChains *chains;
     uint64_t seed, modules;
+    FrLdrawn drawn;
 } Grown;
 
 static void clear_grown(Grown *grown) {
@@ -33,6 +34,7 @@ static FrStatus grow(const CliSession *session, const FrDocument *document,
         fr_scene_grow(document, definition, seed, &session->context, &plant, &grown->counts);
     grown->plant = plant.plant;
     grown->modules = plant.modules;
+    grown->drawn = plant.drawn;
     g_free(plant.by_component);
     if (grown->counts.parent == &wanted) {
         grown->counts.parent = NULL;
@@ -103,6 +105,16 @@ static json_t *sliders_json(const FrPlantDef *definition) {
     return sliders;
 }
 
+static void print_drawn(const FrLdrawn *drawn) {
+    char *modules = cli_count_text(drawn->modules), *segments = cli_count_text(drawn->segments);
+    printf("  drawn: %s modules after homomorphism, %s segments, %g long, "
+           "from (%g, %g, %g) to (%g, %g, %g)\n",
+           modules, segments, drawn->length, drawn->min[0], drawn->min[1], drawn->min[2],
+           drawn->max[0], drawn->max[1], drawn->max[2]);
+    g_free(modules);
+    g_free(segments);
+}
+
 static void print_plant(const Grown *grown) {
     bool is_lsystem = grown->definition->kind == FR_PLANT_LSYSTEM;
     char *made = cli_count_text(is_lsystem ? grown->modules : grown->counts.instances);
@@ -117,7 +129,9 @@ static void print_plant(const Grown *grown) {
     g_free(axes);
     g_free(nodes);
     g_free(organs);
-    if (!is_lsystem) {
+    if (is_lsystem) {
+        print_drawn(&grown->drawn);
+    } else {
         print_components(grown);
     }
     print_sliders(grown->definition);
@@ -152,6 +166,7 @@ static json_t *plant_json(const Grown *grown) {
         (json_int_t)grown->plant->organs.count, "shapes", (json_int_t)grown->plant->shapes->len);
     if (grown->definition->kind == FR_PLANT_LSYSTEM) {
         json_object_set_new(plant, "modules", json_integer((json_int_t)grown->modules));
+        json_object_set_new(plant, "drawn", cli_drawn_json(&grown->drawn));
     } else {
         json_object_set_new(plant, "instances", json_integer((json_int_t)grown->counts.instances));
         json_object_set_new(plant, "components", components_json(grown));

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define SAMPLES 1025
+#define MOST_SAMPLES 100000
 #define MOST_POINTS 10000
 
 int fr_lcompanion_numbers(const char *line, double *numbers, int most) {
@@ -51,62 +51,95 @@ static void clamped_spline(const double (*points)[3], uint32_t count, double u, 
     memcpy(out, d[degree], 3 * sizeof *out);
 }
 
-// y at x: the curve is followed until it passes x.
-static double spline_at(const double (*points)[3], uint32_t count, double x) {
-    double low = 0, high = 1, point[3];
-    for (int i = 0; i < 40; i++) {
+// y at x by bisection, which stops where x is met to a thousandth: values are those of cpfg to
+// the last bit, not those of the curve.
+double fr_lspline_value(const double (*points)[3], uint32_t count, double x) {
+    double low = 0, high = 1, point[3] = {0, 0, 0};
+    for (int i = 0; i < 60; i++) {
         double middle = (low + high) / 2;
         clamped_spline(points, count, middle, point);
-        if (point[0] < x) {
-            low = middle;
-        } else {
+        if (point[0] > x) {
             high = middle;
+        } else {
+            low = middle;
+        }
+        if (fabs(point[0] - x) <= 0.001) {
+            break;
         }
     }
-    clamped_spline(points, count, (low + high) / 2, point);
     return point[1];
 }
 
 static void add_function(GArray *functions, const char *name, const double (*points)[3],
-                         uint32_t count) {
-    FrLspline spline = {g_strdup(name), g_new(double, SAMPLES), SAMPLES};
-    for (uint32_t i = 0; i < SAMPLES; i++) {
-        spline.samples[i] = spline_at(points, count, (double)i / (SAMPLES - 1));
+                         uint32_t count, uint32_t samples) {
+    FrLspline spline = {.name = g_strdup(name),
+                        .points = g_memdup2(points, count * sizeof *points),
+                        .point_count = count};
+    if (samples > 2) {
+        spline.samples = g_new(double, samples);
+        spline.count = samples;
+        for (uint32_t i = 0; i < samples; i++) {
+            spline.samples[i] = fr_lspline_value(points, count, (double)i / (samples - 1));
+        }
     }
     g_array_append_val(functions, spline);
 }
 
-bool fr_lcompanion_functions(FrSource *source, GArray *functions) {
+/// A function that is being read.
+typedef struct Function {
+    char *name;
+    bool is_old; ///< begins with `range:`; a third number means nothing
+    uint32_t samples, wanted, seen, count;
+    double (*points)[3];
+} Function;
+
+static void read_head(Function *function, const char *text, int samples) {
+    double n[2] = {0, 0};
+    if (g_str_has_prefix(text, "name:")) {
+        g_free(function->name);
+        function->name = g_strstrip(g_strdup(text + 5));
+    } else if (g_str_has_prefix(text, "range:") || g_str_has_prefix(text, "fver")) {
+        function->is_old = *text == 'r';
+        function->samples = function->is_old && samples > 0 ? (uint32_t)samples : 0;
+    } else if (g_str_has_prefix(text, "samples:")) {
+        fr_lcompanion_numbers(text + 8, n, 1);
+        function->samples = (uint32_t)CLAMP(n[0], 0, MOST_SAMPLES);
+    } else if (g_str_has_prefix(text, "points:")) {
+        fr_lcompanion_numbers(text + 7, n, 1);
+        function->wanted = (uint32_t)CLAMP(n[0], 0, MOST_POINTS);
+        function->seen = function->count = 0;
+    }
+}
+
+/// Takes a control point, in single precision; true with the last.
+static bool read_point(Function *function, const double n[3]) {
+    uint32_t times = function->is_old ? 1 : (uint32_t)CLAMP(n[2], 0, MOST_POINTS);
+    for (uint32_t i = 0; i < times && function->count < MOST_POINTS; i++) {
+        double point[3] = {(double)(float)n[0], (double)(float)n[1], 0};
+        memcpy(function->points[function->count++], point, sizeof point);
+    }
+    return ++function->seen == function->wanted && function->count >= 2;
+}
+
+bool fr_lcompanion_functions(FrSource *source, GArray *functions, int samples) {
     size_t size;
     char **lines = g_strsplit(fr_source_text(source, &size), "\n", -1);
-    double(*points)[3] = g_malloc_n(MOST_POINTS, sizeof *points);
-    char *name = NULL;
+    Function function = {.points = g_malloc_n(MOST_POINTS, sizeof(double[3]))};
     guint before = functions->len;
-    uint32_t wanted = 0, count = 0;
     for (char **line = lines; *line != NULL && functions->len < before + 1000; line++) {
         char *text = g_strstrip(*line);
         double n[3] = {0, 0, 1};
-        if (g_str_has_prefix(text, "name:")) {
-            g_free(name);
-            name = g_strstrip(g_strdup(text + 5));
-        } else if (g_str_has_prefix(text, "points:")) {
-            fr_lcompanion_numbers(text + 7, n, 1);
-            wanted = (uint32_t)CLAMP(n[0], 0, MOST_POINTS);
-            count = 0;
-        } else if (count < wanted && fr_lcompanion_numbers(text, n, 3) >= 2) {
-            uint32_t times = (uint32_t)CLAMP(n[2], 1, 3);
-            for (uint32_t i = 0; i < times && count < MOST_POINTS; i++) {
-                memcpy(points[count++], (double[3]){n[0], n[1], 0}, sizeof points[0]);
-            }
-            wanted += times - 1;
-            if (count >= wanted && count >= 2) {
-                add_function(functions, name, (const double(*)[3])points, count);
-                wanted = 0;
-            }
+        bool is_head = g_ascii_isalpha(*text);
+        if (is_head) {
+            read_head(&function, text, MIN(samples, MOST_SAMPLES));
+        } else if (function.seen < function.wanted && fr_lcompanion_numbers(text, n, 3) >= 2 &&
+                   read_point(&function, n)) {
+            add_function(functions, function.name, (const double(*)[3])function.points,
+                         function.count, function.samples);
         }
     }
-    g_free(name);
-    g_free(points);
+    g_free(function.name);
+    g_free(function.points);
     g_strfreev(lines);
     return functions->len > before;
 }
@@ -145,25 +178,67 @@ static void add_contour(GArray *contours, int id, const double (*points)[3], uin
     g_array_append_val(contours, contour);
 }
 
-bool fr_lcompanion_contour(FrSource *source, GArray *contours, int id) {
+void fr_lcurve_point(const FrLcontour *curve, double t, double out[3]) {
+    const double(*points)[3] = (const double(*)[3])curve->controls;
+    uint32_t count = curve->control_count;
+    double spans = (double)count - 3.000001, at = t * spans;
+    if (curve->is_clamped) {
+        clamped_spline(points, count, at / (count - 3), out);
+    } else {
+        uint32_t span = MIN((uint32_t)at, count - 4);
+        uniform_spline(points, count, span, at - span, out);
+    }
+}
+
+/// A curve of so many samples, whose lengths tell where a part of it is.
+static void add_curve(GArray *curves, int id, const double (*points)[3], uint32_t count,
+                      bool is_closed, bool is_clamped, uint32_t samples) {
+    FrLcontour curve = {.id = id, .is_closed = is_closed, .is_clamped = is_clamped};
+    curve.control_count = count + (is_closed ? 3 : 0);
+    curve.controls = g_malloc_n(curve.control_count, sizeof *curve.controls);
+    for (uint32_t i = 0; i < curve.control_count; i++) {
+        memcpy(curve.controls[i], points[i % count], sizeof *curve.controls);
+    }
+    curve.count = samples;
+    curve.points = g_malloc_n(samples, sizeof *curve.points);
+    curve.lengths = g_new(double, samples);
+    for (uint32_t i = 0; i < samples; i++) {
+        fr_lcurve_point(&curve, (double)i / (samples - 1), curve.points[i]);
+        const double *a = curve.points[i > 0 ? i - 1 : 0], *b = curve.points[i];
+        curve.length += sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) +
+                             (b[2] - a[2]) * (b[2] - a[2]));
+        curve.lengths[i] = curve.length;
+    }
+    for (uint32_t i = 0; i < samples && curve.length > 0; i++) {
+        curve.lengths[i] /= curve.length;
+    }
+    g_array_append_val(curves, curve);
+}
+
+bool fr_lcompanion_contour(FrSource *source, GArray *contours, int id, int samples) {
     size_t size;
     char **lines = g_strsplit(fr_source_text(source, &size), "\n", -1);
     double(*points)[3] = g_malloc_n(MOST_POINTS, sizeof *points);
     uint32_t count = 0;
-    bool is_closed = false;
+    bool is_closed = false, is_clamped = false;
     for (char **line = lines; *line != NULL; line++) {
         char *text = g_strstrip(*line);
         double n[4] = {0, 0, 0, 1};
         if (g_str_has_prefix(text, "type:")) {
-            is_closed = strchr(text + 5, 'c') != NULL;
+            const char *type = text + 5 + strspn(text + 5, " \t");
+            is_closed = *type == 'c';
+            is_clamped = *type == 'o' && type[1] == 'e';
         } else if (!g_ascii_isalpha(*text) && fr_lcompanion_numbers(text, n, 4) >= 2) {
-            for (uint32_t i = 0; i < (uint32_t)CLAMP(n[3], 1, 3) && count < MOST_POINTS; i++) {
+            for (uint32_t i = 0; i < (uint32_t)CLAMP(n[3], 0, 100) && count < MOST_POINTS; i++) {
                 memcpy(points[count++], n, sizeof points[0]);
             }
         }
     }
     bool is_enough = count >= 4;
-    if (is_enough) {
+    if (is_enough && samples > 0) {
+        add_curve(contours, id, (const double(*)[3])points, count, is_closed, is_clamped,
+                  (uint32_t)CLAMP(samples, 2, MOST_SAMPLES));
+    } else if (is_enough) {
         add_contour(contours, id, (const double(*)[3])points, count, is_closed);
     }
     g_free(points);

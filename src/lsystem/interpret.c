@@ -274,13 +274,54 @@ static bool take_module(void *data, const uint32_t *module, uint64_t origin) {
     return fr_lturtle_take(data, module, origin);
 }
 
-static bool has_homomorphism(const FrLsystem *system) {
+static bool has_homomorphism(const FrLsystem *system, bool is_impure) {
     bool has_any = false;
     for (guint u = 0; u < system->units->len; u++) {
         const FrLunit *unit = g_ptr_array_index(system->units, u);
-        has_any |= unit->sections[FR_LHOMOMORPHISM].list->len > 0;
+        const GArray *list = unit->sections[FR_LHOMOMORPHISM].list;
+        for (guint i = 0; i < list->len; i++) {
+            const FrLproduction *production = &g_array_index(system->productions, FrLproduction,
+                                                             g_array_index(list, uint32_t, i));
+            has_any |= !is_impure || !production->is_pure;
+        }
     }
     return has_any;
+}
+
+static bool count_module(void *data, const uint32_t *module, uint64_t origin) {
+    (void)module;
+    (void)origin;
+    return ++*(uint64_t *)data < UINT64_MAX;
+}
+
+FrStatus fr_lderivation_count(FrLderivation *derivation, const FrContext *context,
+                              uint64_t *modules) {
+    *modules = fr_lstring_count(derivation->string);
+    if (!has_homomorphism(derivation->system, false)) {
+        return FR_OK;
+    }
+    // What the homomorphism changes is put back: who counts must not decide what is drawn.
+    FrLrandom random = derivation->machine.random;
+    GPtrArray *kept = g_ptr_array_new_with_free_func(g_free);
+    for (guint i = 0; i < derivation->instances->len; i++) {
+        const FrLinstance *instance = g_ptr_array_index(derivation->instances, i);
+        g_ptr_array_add(
+            kept, instance == NULL
+                      ? NULL
+                      : g_memdup2(instance->variables, instance->unit->variables * sizeof(double)));
+    }
+    *modules = 0;
+    FrStatus status = fr_lderive_interpret(derivation, count_module, NULL, modules, context);
+    for (guint i = 0; i < kept->len; i++) {
+        FrLinstance *instance = g_ptr_array_index(derivation->instances, i);
+        if (instance != NULL && g_ptr_array_index(kept, i) != NULL) {
+            memcpy(instance->variables, g_ptr_array_index(kept, i),
+                   instance->unit->variables * sizeof(double));
+        }
+    }
+    g_ptr_array_unref(kept);
+    derivation->machine.random = random;
+    return status;
 }
 
 FrStatus fr_lderivation_plant(FrLderivation *derivation, const FrContext *context, FrPlant **plant,
@@ -295,11 +336,21 @@ FrStatus fr_lderivation_plant(FrLderivation *derivation, const FrContext *contex
 FrStatus fr_lderivation_draw(FrLderivation *derivation, const FrContext *context, FrPlant **plant,
                              FrLdrawn *drawn) {
     *plant = NULL;
-    FrLbuilder *builder = fr_lbuilder_new(derivation, context);
     FrLturtle turtle;
     FrStatus status = FR_OK;
+    // Where no box is given, cpfg reads the string once to find one, and again to draw it.
+    if (!derivation->view->is_framed && has_homomorphism(derivation->system, true)) {
+        fr_lturtle_init(&turtle, derivation, NULL, context);
+        status = fr_lderive_interpret(derivation, take_module, &turtle.is_raw, &turtle, context);
+        status = MAX(status, turtle.status);
+        fr_lturtle_clear(&turtle);
+    }
+    if (status != FR_OK) {
+        return status;
+    }
+    FrLbuilder *builder = fr_lbuilder_new(derivation, context);
     fr_lturtle_init(&turtle, derivation, builder, context);
-    if (has_homomorphism(derivation->system)) {
+    if (has_homomorphism(derivation->system, false)) {
         status = fr_lderive_interpret(derivation, take_module, &turtle.is_raw, &turtle, context);
     } else {
         fr_lbuilder_reserve(builder, derivation->string);

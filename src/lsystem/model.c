@@ -261,7 +261,8 @@ FrStatus fr_lmodel_derive(const FrLmodel *model, const FrLsettings *settings,
 }
 
 FrStatus fr_lmodel_grow(const FrLmodel *model, const FrLsettings *settings,
-                        const FrContext *context, FrPlant **plant, uint64_t *modules) {
+                        const FrContext *context, FrPlant **plant, uint64_t *modules,
+                        FrLdrawn *drawn) {
     *plant = NULL;
     FrLderivation *derivation;
     FrStatus status = fr_lmodel_derive(model, settings, context, &derivation);
@@ -270,7 +271,7 @@ FrStatus fr_lmodel_grow(const FrLmodel *model, const FrLsettings *settings,
     }
     status = fr_lderivation_run(derivation, fr_lderivation_length(derivation), context);
     if (status == FR_OK) {
-        status = fr_lderivation_plant(derivation, context, plant, NULL);
+        status = fr_lderivation_plant(derivation, context, plant, drawn);
     }
     if (status == FR_OK && modules != NULL) {
         *modules = fr_lstring_count(fr_lderivation_string(derivation));

@@ -1,5 +1,5 @@
 // What a view says; functions and curves evaluated.
-#include "lsystem/view.h"
+#include "lsystem/companion.h"
 
 #include <math.h>
 
@@ -31,12 +31,15 @@ void fr_lview_free(FrLview *view) {
     for (guint i = 0; i < view->functions->len; i++) {
         g_free(g_array_index(view->functions, FrLspline, i).name);
         g_free(g_array_index(view->functions, FrLspline, i).samples);
+        g_free(g_array_index(view->functions, FrLspline, i).points);
     }
     for (guint i = 0; i < view->contours->len; i++) {
         g_free(g_array_index(view->contours, FrLcontour, i).points);
     }
     for (guint i = 0; i < view->curves->len; i++) {
         g_free(g_array_index(view->curves, FrLcontour, i).points);
+        g_free(g_array_index(view->curves, FrLcontour, i).controls);
+        g_free(g_array_index(view->curves, FrLcontour, i).lengths);
     }
     for (guint i = 0; i < view->surfaces->len; i++) {
         g_free(g_array_index(view->surfaces, FrLsurface, i).corners);
@@ -76,32 +79,40 @@ static const void *numbered(const GArray *array, size_t size, double id) {
 double fr_lview_function(const FrLview *view, double id, double x) {
     const FrLspline *function =
         view == NULL ? NULL : numbered(view->functions, sizeof(FrLspline), id);
-    if (function == NULL || function->count == 0) {
+    if (function == NULL) {
         return 0;
     }
     x = x >= 0 ? MIN(x, 1) : 0;
+    if (function->samples == NULL) {
+        return fr_lspline_value((const double(*)[3])function->points, function->point_count, x);
+    }
     double at = x * (function->count - 1);
-    uint32_t i = MIN((uint32_t)at, function->count - 1), next = MIN(i + 1, function->count - 1);
-    double part = at - i;
-    return function->samples[i] * (1 - part) + function->samples[next] * part;
+    uint32_t i = MIN((uint32_t)at, function->count - 1);
+    if (i == function->count - 1) {
+        return function->samples[i];
+    }
+    return (1 - at + i) * function->samples[i] + (at - i) * function->samples[i + 1];
 }
 
+// The parameter is found in a table of lengths, then the curve itself is evaluated.
 double fr_lview_curve(const FrLview *view, double id, double t, int axis) {
     const FrLcontour *curve = view == NULL ? NULL : numbered(view->curves, sizeof(FrLcontour), id);
-    if (curve == NULL || curve->count == 0) {
+    if (curve == NULL || curve->count < 2) {
         return 0;
     }
-    double left = (t >= 0 ? MIN(t, 1) : 0) * curve->length;
-    for (uint32_t i = 0; i + 1 < curve->count; i++) {
-        const double *a = curve->points[i], *b = curve->points[i + 1];
-        double length = sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) +
-                             (b[2] - a[2]) * (b[2] - a[2]));
-        if (left <= length && length > 0) {
-            return a[axis] + (b[axis] - a[axis]) * (left / length);
+    uint32_t low = 0, high = curve->count - 1;
+    while (high - low > 1) {
+        uint32_t middle = (low + high) / 2;
+        if (curve->lengths[middle] > t) {
+            high = middle;
+        } else {
+            low = middle;
         }
-        left -= length;
     }
-    return curve->points[curve->count - 1][axis];
+    double step = curve->lengths[high] - curve->lengths[low], point[3];
+    double part = step > 0 ? (t - curve->lengths[low]) / step : 0;
+    fr_lcurve_point(curve, CLAMP((low + part) / (curve->count - 1), 0, 1), point);
+    return point[axis];
 }
 
 double fr_lview_curve_length(const FrLview *view, double id) {

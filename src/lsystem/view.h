@@ -16,10 +16,13 @@ typedef struct FrLtropism {
     bool is_torque;
 } FrLtropism;
 
-/// A function of x in [0, 1]: a clamped cubic B-spline, sampled once.
+/// A function of x in [0, 1]: a clamped cubic B-spline. Where it is sampled, values between
+/// samples are straight.
 typedef struct FrLspline {
     char *name;
-    double *samples;
+    double (*points)[3]; ///< control points
+    uint32_t point_count;
+    double *samples; ///< NULL: not sampled
     uint32_t count;
 } FrLspline;
 
@@ -30,6 +33,10 @@ typedef struct FrLcontour {
     uint32_t count;
     bool is_closed;
     double length;
+    double (*controls)[3]; ///< of a curve: control points of its B-spline; NULL for contours
+    uint32_t control_count;
+    bool is_clamped; ///< the curve ends in its first and last control point
+    double *lengths; ///< of a curve: from its begin to each of `count` points, over the whole
 } FrLcontour;
 
 /// Triangles of a surface, in the turtle's axes (x left, y heading, z up).
@@ -47,6 +54,7 @@ struct FrLview {
     double angle, width, width_step, scale, scale_step;
     FrLstyle style;
     bool tapers, twists, draws_past_cut, answers_before;
+    bool is_framed; ///< has a box:, so that nothing is drawn to find one
     uint32_t contour_sides;
     int colour, colour_step;
     double old_direction[3], old_elasticity, old_step;

@@ -31,7 +31,6 @@ static const char *const ignored[] = {"viewpoint",
                                       "front distance",
                                       "back distance",
                                       "scale factor",
-                                      "box",
                                       "min zoom",
                                       "max zoom",
                                       "generate on view change",
@@ -110,6 +109,7 @@ static FrLstyle style_of(const char *value) {
 static void read_tropism(Reader *reader, const char *value, bool is_torque) {
     FrLtropism tropism = {.is_torque = is_torque, .direction = {0, 1, 0}};
     double intensity = 1;
+    bool has_intensity = false;
     while (*value != '\0') {
         char letter = *value++;
         if (*value != ':') {
@@ -123,6 +123,7 @@ static void read_tropism(Reader *reader, const char *value, bool is_torque) {
             tropism.angle = numbers[0] * (G_PI / 180);
         } else if (letter == 'I') {
             intensity = numbers[0];
+            has_intensity = true;
         } else if (letter == 'E') {
             tropism.elasticity = numbers[0];
         } else if (letter == 'S') {
@@ -132,9 +133,11 @@ static void read_tropism(Reader *reader, const char *value, bool is_torque) {
     double length = sqrt(tropism.direction[0] * tropism.direction[0] +
                          tropism.direction[1] * tropism.direction[1] +
                          tropism.direction[2] * tropism.direction[2]);
-    intensity = CLAMP(intensity, -1, 1);
+    // What is cut to 1 is the factor, so that short vectors with an intensity may stay short.
+    double factor = length > 0 ? intensity / length : 0;
+    factor = has_intensity ? CLAMP(factor, -1, 1) : factor;
     for (int k = 0; k < 3; k++) {
-        tropism.direction[k] *= length > 0 ? intensity / length : 0;
+        tropism.direction[k] *= factor;
     }
     g_array_append_val(reader->view->tropisms, tropism);
 }
@@ -179,10 +182,12 @@ static bool read_file(Reader *reader, const char *label, char **words, guint cou
     FrLview *view = reader->view;
     bool is_read = true;
     if (is_function) {
-        is_read = fr_lcompanion_functions(source, view->functions);
+        is_read = fr_lcompanion_functions(source, view->functions, count > 1 ? atoi(words[1]) : 0);
     } else if (is_contour || is_curve) {
+        int samples = !is_curve ? 0 : count > 1 ? MAX(atoi(words[1]), 2) : 100;
         is_read = fr_lcompanion_contour(source, is_curve ? view->curves : view->contours,
-                                        is_contour ? atoi(words[0]) : (int)view->curves->len + 1);
+                                        is_contour ? atoi(words[0]) : (int)view->curves->len + 1,
+                                        samples);
     } else {
         double size = count > 2 ? g_ascii_strtod(words[2], NULL) : 1;
         int s = count > 3 ? atoi(words[3]) : 0, t = count > 4 ? atoi(words[4]) : 0;
@@ -220,7 +225,7 @@ static bool read_numbers(FrLview *view, const char *label, const char *value) {
         }
     }
     if (strcmp(label, "angle factor") == 0) {
-        view->angle = n[0] != 0 ? 360 / n[0] : view->angle;
+        view->angle = n[0] != 0 ? (double)(float)(360 / n[0]) : view->angle;
     } else if (strcmp(label, "tropism direction") == 0) {
         double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         for (int k = 0; k < 3 && length > 0; k++) {
@@ -258,6 +263,8 @@ static bool read_switches(FrLview *view, const char *label, const char *value) {
         view->tapers = is_on(value);
     } else if (strcmp(label, "twist of cylinders") == 0) {
         view->twists = is_on(value);
+    } else if (strcmp(label, "box") == 0) {
+        view->is_framed = true;
     } else if (strcmp(label, "interpretation past %") == 0) {
         view->draws_past_cut = is_on(value);
     } else if (strcmp(label, "environment display") == 0) {

@@ -5,8 +5,8 @@ static FrStatus grow_lsystem(const FrPlantDef *definition, int64_t seed, const F
                              FrScenePlant *made) {
     FrLsettings settings = fr_lmodel_settings(definition->lsystem);
     settings.seed = seed >= 0 ? seed : definition->has_seed ? (int64_t)definition->seed : -1;
-    FrStatus status =
-        fr_lmodel_grow(definition->lsystem, &settings, context, &made->plant, &made->modules);
+    FrStatus status = fr_lmodel_grow(definition->lsystem, &settings, context, &made->plant,
+                                     &made->modules, &made->drawn);
     if (status == FR_OK) {
         g_free(made->plant->name);
         made->plant->name = g_strdup(definition->id);
