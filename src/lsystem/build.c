@@ -171,20 +171,39 @@ static Count count_abreast(const uint32_t *words, const uint64_t begin[CHAINS],
     return count;
 }
 
-void fr_lbuilder_reserve(FrLbuilder *builder, const FrLstring *string) {
+/// Counts a range of groups of parts of a string.
+typedef struct Counting {
+    const FrLstring *string;
+    Count *groups;
+} Counting;
+
+static void count_groups(void *data, size_t first, size_t last, int worker) {
+    (void)worker;
+    const Counting *counting = data;
+    const FrLstring *string = counting->string;
     const GArray *marks = string->marks;
-    Count count = {0, 0};
-    for (guint i = 0; i < marks->len; i += CHAINS) {
+    for (size_t group = first; group < last; group++) {
         uint64_t begin[CHAINS], end[CHAINS];
-        for (guint c = 0; c < CHAINS; c++) {
-            bool is_there = i + c < marks->len, is_last = i + c + 1 >= marks->len;
-            begin[c] = is_there ? g_array_index(marks, FrLmark, i + c).word : string->count;
-            end[c] = is_last ? string->count : g_array_index(marks, FrLmark, i + c + 1).word;
+        for (size_t c = 0; c < CHAINS; c++) {
+            size_t i = group * CHAINS + c;
+            bool is_there = i < marks->len, is_last = i + 1 >= marks->len;
+            begin[c] = is_there ? g_array_index(marks, FrLmark, i).word : string->count;
+            end[c] = is_last ? string->count : g_array_index(marks, FrLmark, i + 1).word;
         }
-        Count part = count_abreast(string->words, begin, end);
-        count.segments += part.segments;
-        count.brackets += part.brackets;
+        counting->groups[group] = count_abreast(string->words, begin, end);
     }
+}
+
+void fr_lbuilder_reserve(FrLbuilder *builder, const FrLstring *string) {
+    size_t groups = (string->marks->len + CHAINS - 1) / CHAINS;
+    Counting counting = {string, g_new0(Count, groups + 1)};
+    fr_parallel_for(builder->context->pool, groups, 8, count_groups, &counting, NULL);
+    Count count = {0, 0};
+    for (size_t i = 0; i < groups; i++) {
+        count.segments += counting.groups[i].segments;
+        count.brackets += counting.groups[i].brackets;
+    }
+    g_free(counting.groups);
     uint64_t most = MIN(builder->context->limits.nodes, UINT32_MAX / 2);
     uint64_t nodes = MIN(count.segments, most);
     if (nodes > BLOCK) {
@@ -235,7 +254,7 @@ static uint32_t begin_axis(FrLbuilder *builder, const FrLstand *stand, const FrL
     return axis;
 }
 
-static double square_of(const FrLsegment *segment) {
+static inline double square_of(const FrLsegment *segment) {
     double square = 0;
     for (int k = 0; k < 3; k++) {
         double d = segment->end[k] - segment->start[k];
@@ -244,17 +263,22 @@ static double square_of(const FrLsegment *segment) {
     return square;
 }
 
-void fr_lbuilder_count(FrLbuilder *builder, const FrLsegment *segment) {
-    double square = square_of(segment);
-    if (square > NO_LINE && segment->end_width > 0) {
+static inline void count_line(FrLbuilder *builder, double square, double length, bool is_seen) {
+    if (square > NO_LINE && is_seen) {
         builder->drawn.segments++;
-        builder->drawn.length += sqrt(square);
+        builder->drawn.length += length;
     }
 }
 
-void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment) {
+void fr_lbuilder_count(FrLbuilder *builder, const FrLsegment *segment) {
     double square = square_of(segment);
-    if (!(square > 0) || (builder->nodes == builder->plant->nodes.count && !grow_nodes(builder))) {
+    count_line(builder, square, sqrt(square), segment->end_width > 0);
+}
+
+/// Appends an internode of that length, unless it has none.
+static inline void add_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment,
+                            double length) {
+    if (!(length > 0) || (builder->nodes == builder->plant->nodes.count && !grow_nodes(builder))) {
         return;
     }
     FrNodes *nodes = &builder->plant->nodes;
@@ -272,7 +296,7 @@ void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *se
     nodes->parent[node] = parent;
     nodes->axis[node] = axis;
     nodes->position[node] = fr_lturtle_world(segment->end);
-    nodes->length[node] = (float)sqrt(square);
+    nodes->length[node] = (float)length;
     nodes->radius[node] = segment->end_width / 2;
     vec3s heading = fr_lturtle_world(segment->heading), left = fr_lturtle_world(segment->left);
     float sign = segment->is_backward ? -1 : 1;
@@ -282,9 +306,14 @@ void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *se
     *stand = (FrLstand){node, true, false};
 }
 
+void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment) {
+    add_node(builder, stand, segment, sqrt(square_of(segment)));
+}
+
 void fr_lbuilder_segment(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment) {
-    fr_lbuilder_count(builder, segment);
-    fr_lbuilder_node(builder, stand, segment);
+    double square = square_of(segment), length = sqrt(square);
+    count_line(builder, square, length, segment->end_width > 0);
+    add_node(builder, stand, segment, length);
 }
 
 // Where an organ stands is told in the plant's coordinates until the end.

@@ -6,7 +6,6 @@
 #include <math.h>
 
 #define MOST_BRACKETS 1000000
-#define MOST_CORNERS 4000000
 #define LEAST_WIDTH 1e-7F
 #define MOST_LENGTH 1e9F
 
@@ -61,14 +60,6 @@ void fr_lturtle_clear(FrLturtle *turtle) {
     g_array_unref(turtle->scales);
 }
 
-void fr_lturtle_turn(double a[3], double b[3], double sine, double cosine) {
-    for (int k = 0; k < 3; k++) {
-        double x = a[k];
-        a[k] = x * cosine + b[k] * sine;
-        b[k] = b[k] * cosine - x * sine;
-    }
-}
-
 void fr_lturtle_sine(FrLturtle *turtle, float degrees, double *sine, double *cosine) {
     uint32_t bits;
     memcpy(&bits, &degrees, sizeof bits);
@@ -83,7 +74,7 @@ void fr_lturtle_sine(FrLturtle *turtle, float degrees, double *sine, double *cos
     *cosine = turtle->turns[slot].cosine;
 }
 
-static inline void turn(FrLturtle *turtle, const uint32_t *module, double a[3], double b[3],
+static inline void turn(FrLturtle *turtle, const uint32_t *module, double a[4], double b[4],
                         int sign) {
     double sine = turtle->sine, cosine = turtle->cosine;
     if (fr_lhead_count(*module) > 0) {
@@ -119,18 +110,6 @@ void fr_lturtle_end_node(FrLturtle *turtle) {
     end_node(turtle);
 }
 
-static void add_corner(FrLturtle *turtle) {
-    if (turtle->builder == NULL) {
-        return;
-    }
-    if (turtle->corners->len >= MOST_CORNERS) {
-        turtle->status = fr_limit_check(turtle->corners->len + UINT64_C(1), MOST_CORNERS, "corners",
-                                        "an open polygon", (FrSpan){0}, turtle->context->diags);
-        return;
-    }
-    g_array_append_vals(turtle->corners, turtle->pose.position, 1);
-}
-
 /// Length of a move: single precision, as cpfg has it.
 static inline float length_of(const FrLpose *pose, const uint32_t *module) {
     float length =
@@ -140,7 +119,7 @@ static inline float length_of(const FrLpose *pose, const uint32_t *module) {
 
 static inline void advance(FrLturtle *turtle, double length, bool adds_points) {
     FrLpose *pose = &turtle->pose;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
         pose->position[k] += length * pose->heading[k];
     }
     turtle->is_moved = true;
@@ -148,7 +127,7 @@ static inline void advance(FrLturtle *turtle, double length, bool adds_points) {
         fr_lturtle_bend_old(turtle);
     }
     if (adds_points && turtle->polygons->len > 0) {
-        add_corner(turtle);
+        fr_lturtle_corner(turtle);
     }
     if (adds_points && pose->spline == 1) {
         fr_lspline_point(turtle, 0);
@@ -188,87 +167,7 @@ static void jump(FrLturtle *turtle, const uint32_t *module, char symbol) {
     advance(turtle, (double)length, symbol == 'f');
 }
 
-// ---- polygons ---------------------------------------------------------------------------------
-
-static void open_shape(FrLturtle *turtle, const uint32_t *module) {
-    double kind = fr_lturtle_value(module, 0, 0);
-    end_node(turtle);
-    if (kind != 0) {
-        fr_lspline_begin(turtle, fr_lturtle_int(kind),
-                         fr_lturtle_int(fr_lturtle_value(module, 1, 0)));
-    } else if (turtle->polygons->len < 1000) {
-        FrLpolygon polygon = {turtle->pose, turtle->corners->len};
-        g_array_append_val(turtle->polygons, polygon);
-    }
-}
-
-static void close_shape(FrLturtle *turtle, const uint32_t *module) {
-    if (fr_lturtle_value(module, 0, 0) != 0) {
-        fr_lspline_end(turtle);
-        return;
-    }
-    if (turtle->polygons->len == 0) {
-        return;
-    }
-    end_node(turtle);
-    FrLpolygon polygon = g_array_index(turtle->polygons, FrLpolygon, turtle->polygons->len - 1);
-    g_array_set_size(turtle->polygons, turtle->polygons->len - 1);
-    if (turtle->builder != NULL) {
-        fr_lbuilder_polygon(turtle->builder, &polygon.pose,
-                            (const double(*)[3])(void *)turtle->corners->data + polygon.first,
-                            turtle->corners->len - polygon.first);
-        turtle->status = MAX(turtle->status, turtle->builder->status);
-    }
-    g_array_set_size(turtle->corners, polygon.first);
-}
-
-static void add_dot(FrLturtle *turtle, const uint32_t *module) {
-    if (turtle->polygons->len > 0) {
-        add_corner(turtle);
-    } else {
-        fr_lspline_point(turtle, fr_lturtle_int(fr_lturtle_value(module, 0, 0)));
-    }
-}
-
 // ---- symbols ----------------------------------------------------------------------------------
-
-/// Where the turtle goes after a surface; only the first of three scales counts.
-static void leave_surface(FrLturtle *turtle, const FrLsurface *surface, double scale) {
-    FrLpose *pose = &turtle->pose;
-    for (int k = 0; k < 3; k++) {
-        double to = pose->position[k] + surface->end[0] * scale * pose->left[k] +
-                    surface->end[1] * scale * pose->heading[k] +
-                    surface->end[2] * scale * pose->up[k];
-        pose->stand.is_at_tip &= surface->end[k] == 0;
-        pose->position[k] = surface->is_mesh  ? pose->position[k]
-                            : fabs(to) < 1e12 ? (double)(float)to
-                                              : 0;
-    }
-    turtle->is_moved = true;
-}
-
-static void draw_surface(FrLturtle *turtle, char symbol, const uint32_t *module) {
-    FrLpose *pose = &turtle->pose;
-    const GArray *surfaces = turtle->view->surfaces;
-    for (guint i = 0; i < surfaces->len; i++) {
-        const FrLsurface *surface = &g_array_index(surfaces, FrLsurface, i);
-        if (surface->symbol != symbol) {
-            continue;
-        }
-        double scale[3];
-        bool is_three = fr_lhead_count(*module) >= 3;
-        for (unsigned k = 0; k < 3; k++) {
-            float value = (float)fr_lturtle_value(module, is_three ? k : 0, 1) * pose->scale;
-            scale[k] = (double)value;
-        }
-        if (turtle->builder != NULL) {
-            fr_lbuilder_surface(turtle->builder, pose, surface, scale);
-            turtle->status = MAX(turtle->status, turtle->builder->status);
-        }
-        leave_surface(turtle, surface, scale[0]);
-        return;
-    }
-}
 
 static void change_width(FrLturtle *turtle, const uint32_t *module, int sign) {
     FrLpose *pose = &turtle->pose;
@@ -352,13 +251,13 @@ static void end_call(FrLturtle *turtle) {
 static void obey_other(FrLturtle *turtle, char symbol, const uint32_t *module) {
     switch (symbol) {
     case '{':
-        open_shape(turtle, module);
+        fr_lturtle_open_shape(turtle, module);
         break;
     case '}':
-        close_shape(turtle, module);
+        fr_lturtle_close_shape(turtle, module);
         break;
     case '.':
-        add_dot(turtle, module);
+        fr_lturtle_dot(turtle, module);
         break;
     case ';':
     case ',':
@@ -382,12 +281,14 @@ static void obey_other(FrLturtle *turtle, char symbol, const uint32_t *module) {
     case '@':
         end_node(turtle);
         turtle->prefix = symbol;
+        turtle->is_raw = true;
         break;
     case '?':
         if (fr_lhead_count(*module) > 0) {
             enter_call(turtle, module);
         } else {
             turtle->prefix = symbol;
+            turtle->is_raw = true;
         }
         break;
     default:
@@ -407,7 +308,8 @@ static bool place(FrLturtle *turtle, char symbol, const uint32_t *module) {
     return true;
 }
 
-static inline void obey(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_t origin) {
+static inline __attribute__((always_inline)) void obey(FrLturtle *turtle, char symbol,
+                                                       const uint32_t *module, uint64_t origin) {
     FrLpose *pose = &turtle->pose;
     if (turtle->has_sites && place(turtle, symbol, module)) {
         return;
@@ -461,7 +363,8 @@ static inline void obey(FrLturtle *turtle, char symbol, const uint32_t *module, 
 }
 
 /// Obeys what follows a prefix, and counts brackets behind a cut.
-static void obey_rest(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_t origin) {
+static G_GNUC_NO_INLINE void obey_rest(FrLturtle *turtle, char symbol, const uint32_t *module,
+                                       uint64_t origin) {
     if (turtle->skip > 0) {
         // Behind a cut only brackets count, up to the one that closes the branch.
         turtle->skip += symbol == '[';
@@ -479,7 +382,7 @@ static void obey_rest(FrLturtle *turtle, char symbol, const uint32_t *module, ui
         }
     } else if (turtle->prefix == '~') {
         turtle->prefix = 0;
-        draw_surface(turtle, symbol, module);
+        fr_lturtle_surface(turtle, symbol, module);
     } else if (turtle->prefix == '?') {
         turtle->prefix = 0;
     } else {
@@ -493,8 +396,8 @@ static inline void take(FrLturtle *turtle, const uint32_t *module, uint64_t orig
         obey(turtle, symbol, module, origin);
     } else {
         obey_rest(turtle, symbol, module, origin);
+        turtle->is_raw = turtle->prefix != 0 || turtle->qualifier != 0;
     }
-    turtle->is_raw = turtle->prefix != 0 || turtle->qualifier != 0;
 }
 
 bool fr_lturtle_take(FrLturtle *turtle, const uint32_t *module, uint64_t origin) {

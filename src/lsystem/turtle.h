@@ -19,7 +19,7 @@ typedef struct FrLstand {
 /// The turtle's state, in the precision of cpfg. What comes behind `last_heading` is only kept
 /// over brackets where the string may change it.
 typedef struct FrLpose {
-    double position[3], heading[3], left[3], up[3];
+    double position[4], heading[4], left[4], up[4]; ///< fourths are 0: pairs compute faster
     float width, scale;
     float elasticity; ///< of the old tropism
     int32_t colour;
@@ -120,8 +120,14 @@ void fr_lturtle_level(FrLpose *pose);
 static inline double fr_lturtle_value(const uint32_t *module, unsigned k, double otherwise) {
     return k < fr_lhead_count(*module) ? (double)fr_lword_float(module[1 + k]) : otherwise;
 }
-/// Rotation of a pair of axes as cpfg turns them.
-void fr_lturtle_turn(double a[3], double b[3], double sine, double cosine);
+/// Rotation of a pair of the pose's axes as cpfg turns them.
+static inline void fr_lturtle_turn(double a[4], double b[4], double sine, double cosine) {
+    for (int k = 0; k < 4; k++) {
+        double x = a[k], y = b[k];
+        a[k] = x * cosine + y * sine;
+        b[k] = y * cosine - x * sine;
+    }
+}
 /// Sine and cosine of an angle in degrees, remembered.
 void fr_lturtle_sine(FrLturtle *turtle, float degrees, double *sine, double *cosine);
 /// A number as an int, as C converts it where that is defined.
@@ -132,6 +138,18 @@ static inline int fr_lturtle_int(double value) {
 static inline vec3s fr_lturtle_world(const double v[3]) {
     return (vec3s){{(float)v[0], (float)-v[2], (float)v[1]}};
 }
+
+// ---- turtle_shapes.c --------------------------------------------------------------------------
+
+/// `{` and `}`.
+void fr_lturtle_open_shape(FrLturtle *turtle, const uint32_t *module);
+void fr_lturtle_close_shape(FrLturtle *turtle, const uint32_t *module);
+/// `.`: a corner of a polygon or a control point of a cylinder.
+void fr_lturtle_dot(FrLturtle *turtle, const uint32_t *module);
+/// Adds the turtle's place to the polygon that is open.
+void fr_lturtle_corner(FrLturtle *turtle);
+/// `~` and what follows.
+void fr_lturtle_surface(FrLturtle *turtle, char symbol, const uint32_t *module);
 
 // ---- tropism.c --------------------------------------------------------------------------------
 
