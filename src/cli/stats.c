@@ -108,7 +108,7 @@ static json_t *drawn_of(const FrScene *scene) {
     json_t *list = json_array();
     for (guint i = 0; i < scene->plants->len - scene->obstacles; i++) {
         const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, i);
-        if (built->modules > 0) {
+        if (built->drawn.modules > 0) {
             json_array_append_new(list, cli_drawn_json(&built->drawn));
         }
     }

@@ -148,7 +148,7 @@ static FrStatus draw_all(FrGrowing *growing, FrScene *scene, const FrContext *co
         const Sprout *sprout = g_ptr_array_index(growing->sprouts, i);
         FrScenePlant *plant = &g_array_index(scene->plants, FrScenePlant, sprout->plant);
         FrPlant *drawn;
-        status = fr_lderivation_draw(sprout->derivation, context, &drawn, NULL);
+        status = fr_lderivation_draw(sprout->derivation, context, &drawn, &plant->drawn);
         if (status == FR_OK) {
             g_free(drawn->name);
             drawn->name = g_strdup(sprout->definition->id);

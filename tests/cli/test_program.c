@@ -71,6 +71,11 @@ static const Command commands[] = {
     {"info none.glb", 1, "", "*none.glb*"},
     // L-systems
     {"derive $S/examples/lsystems/koch.l --steps 1", 0, "F*", ""},
+    {"derive $S/examples/lsystems/koch.l --steps 2 --print steps", 0, "0 7 7\n1 59 59\n2 475 475\n",
+     ""},
+    {"derive $S/examples/lsystems/koch.l --steps 2 --print count", 0, "475\n", ""},
+    {"build $S/examples/lsystems/koch.l --steps 1 --stats -", 0, "*\"drawn\"*\"segments\": 32,*",
+     ""},
     {"derive $S/examples/figure2.frond", 2, "", "frond: there is no L-system in the document\n"},
     {"build $S/examples/figure2.frond --steps 2", 2, "", "frond: --steps is for L-systems*"},
     {"derive $S/examples/lsystems/monopodial.l --set r9=1", 1, "", "*did you mean 'r*[unused-*"},
