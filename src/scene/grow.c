@@ -35,7 +35,7 @@ static FrStatus grow_graft(void *data, const FrGraftWish *wish, const FrContext 
     settings.values = values;
     settings.sites = wish->symbols;
     settings.inherits = true;
-    FrStatus status = fr_lmodel_grow(model, &settings, context, plant, NULL);
+    FrStatus status = fr_lmodel_grow(model, &settings, context, plant, NULL, NULL);
     g_free(values);
     return status;
 }
