@@ -72,3 +72,39 @@ FR_API void fr_mesh_uv(const FrMesh *mesh, uint32_t part, uint32_t triangle, flo
                        float uv[2]);
 /// Digest of vertices, indices and parts.
 FR_API FrDigest fr_mesh_digest(const FrMesh *mesh);
+
+// ---- skinning again ---------------------------------------------------------------------------
+
+/// The surface of a plant that changes: its parts stay where they are, and only what differs is
+/// written. Each part has memory of its own, as a graphics card wants it.
+typedef struct FrSkin FrSkin;
+
+/// One part of a skin. The pointers hold until the next update; `first_vertex` and `first_index` of
+/// `part` are where it would begin in one mesh of all.
+typedef struct FrSkinPart {
+    FrMeshPart part;
+    const FrVertex *vertices;
+    const uint32_t *indices;
+    bool is_moved; ///< by the last update: the pointers are others, all of it was written
+    uint64_t changed_vertex, changed_vertex_end; ///< what the last update wrote of it
+    uint64_t changed_index, changed_index_end;
+} FrSkinPart;
+
+/// What the last update did.
+typedef struct FrSkinWork {
+    uint64_t runs, runs_written; ///< tubes that go on from one another
+    uint64_t organs, organs_written;
+} FrSkinWork;
+
+FR_API FrSkin *fr_skin_new(const FrSkinParams *params, FrUpAxis up);
+FR_API void fr_skin_free(FrSkin *skin);
+/// Makes it the skin of `plant`, with the bits that fr_skin_plant() gives. `has_same_rows`: nodes,
+/// axes and organs are those of the last update, as fr_pgraph_build_shares() tells. What fails
+/// leaves the skin as it was; once counted, writing is no longer cancelled.
+FR_API FR_MUST_USE FrStatus fr_skin_update(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
+                                           const FrContext *context);
+/// Its parts, borrowed until the next update.
+FR_API const FrSkinPart *fr_skin_parts(const FrSkin *skin, uint32_t *count);
+FR_API FrSkinWork fr_skin_work(const FrSkin *skin);
+/// A copy in one piece; NULL if there is no memory for it.
+FR_API FrMesh *fr_skin_mesh(const FrSkin *skin);

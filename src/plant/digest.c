@@ -1,5 +1,6 @@
 // The digest of a plant's truth: what two plants must share to be the same plant.
 #include "plant/columns.h"
+#include "plant/shapes.h"
 
 #include <string.h>
 
@@ -52,6 +53,12 @@ static FrDigest digest_deformer(FrDigest digest, const FrDeformer *deformer) {
     return fr_digest(digest, deformer->rotation.raw, sizeof deformer->rotation.raw);
 }
 
+FrDigest fr_profile_digest(FrDigest seed, const FrProfile *profile) {
+    uint32_t head[2] = {profile->count, profile->is_closed};
+    FrDigest digest = fr_digest(seed, head, sizeof head);
+    return fr_digest(digest, profile->points, profile->count * sizeof *profile->points);
+}
+
 FrDigest fr_plant_digest(const FrPlant *plant) {
     FrDigest digest = digest_table(0, &plant->nodes, plant->nodes.count, &fr_node_columns);
     digest = digest_table(digest, &plant->axes, plant->axes.count, &fr_axis_columns);
@@ -66,10 +73,7 @@ FrDigest fr_plant_digest(const FrPlant *plant) {
         digest = digest_deformation(digest, deformation);
     }
     for (guint i = 0; i < plant->profiles->len; i++) {
-        const FrProfile *profile = &g_array_index(plant->profiles, FrProfile, i);
-        uint32_t head[2] = {profile->count, profile->is_closed};
-        digest = fr_digest(digest, head, sizeof head);
-        digest = fr_digest(digest, profile->points, profile->count * sizeof *profile->points);
+        digest = fr_profile_digest(digest, &g_array_index(plant->profiles, FrProfile, i));
     }
     return digest;
 }

@@ -6,3 +6,5 @@
 
 GHashTable *fr_shape_index_new(void);
 GHashTable *fr_profile_index_new(void);
+/// The digest of a profile's points, continued from `seed`.
+FrDigest fr_profile_digest(FrDigest seed, const FrProfile *profile);

@@ -42,6 +42,13 @@ void fr_mesh_free(FrMesh *mesh) {
     }
 }
 
+void fr_part_set_box(FrMeshPart *part, const float min[3], const float max[3]) {
+    for (int k = 0; k < 3; k++) {
+        part->min[k] = min[k] + 0.0F;
+        part->max[k] = max[k] + 0.0F;
+    }
+}
+
 FrDigest fr_mesh_digest(const FrMesh *mesh) {
     FrDigest digest = fr_digest(0, mesh->vertices, mesh->vertex_count * sizeof(FrVertex));
     digest = fr_digest(digest, mesh->indices, mesh->index_count * sizeof(uint32_t));

@@ -1,6 +1,8 @@
 // Places, counts and copies organs.
 #include "skin/organs.h"
 
+#include "skin/stream.h"
+
 #include <cglm/struct.h>
 
 #include <math.h>
@@ -112,22 +114,105 @@ static FrStatus prepare_shapes(FrOrganPlan *organs) {
     return status;
 }
 
-// Gives every organ its place in its part.
-static void place_organs(FrOrganPlan *organs, uint32_t count) {
-    const FrPlant *plant = organs->plan->plant;
-    for (uint32_t i = 0; i < count; i++) {
-        organs->index[i] = UINT64_MAX;
-        uint32_t slot = fr_slot(plant->organs.material[i]);
-        const FrShapeMesh *shape = shape_of(organs, i);
-        if (shape == NULL || !stays(organs, i, shape)) {
-            continue;
+// ---- places ------------------------------------------------------------------------------------
+
+enum { MOST_CHUNKS = 64, LEAST_CHUNK = 1024, MOST_SLOTS_OF_CHUNKS = 256 };
+
+// What a chunk of organs makes in one slot; then, where its first piece has its place.
+typedef struct Tally {
+    uint64_t vertices, indices;
+    uint32_t pieces;
+    bool is_foliage;
+} Tally;
+
+typedef struct Placing {
+    FrOrganPlan *organs;
+    uint32_t count, grain;
+    Tally *tallies; // by chunk, then slot
+} Placing;
+
+// Its mesh, NULL if it makes no piece.
+static const FrShapeMesh *piece_of(const FrOrganPlan *organs, uint32_t organ) {
+    const FrShapeMesh *shape = shape_of(organs, organ);
+    return shape != NULL && stays(organs, organ, shape) ? shape : NULL;
+}
+
+static void tally_chunks(void *data, size_t begin, size_t end, int worker) {
+    const Placing *placing = data;
+    const FrOrganPlan *organs = placing->organs;
+    (void)worker;
+    for (size_t chunk = begin; chunk < end; chunk++) {
+        Tally *tallies = &placing->tallies[chunk * organs->plan->slots];
+        uint32_t from = (uint32_t)chunk * placing->grain;
+        uint32_t to = MIN(from + placing->grain, placing->count);
+        for (uint32_t i = from; i < to; i++) {
+            const FrShapeMesh *shape = piece_of(organs, i);
+            if (shape != NULL) {
+                Tally *tally = &tallies[fr_slot(organs->plan->plant->organs.material[i])];
+                tally->vertices += shape->vertex_count;
+                tally->indices += shape->index_count;
+                tally->is_foliage |= shape->is_foliage;
+                tally->pieces++;
+            }
         }
-        organs->vertex[i] = organs->slot_vertices[slot];
-        organs->index[i] = organs->slot_indices[slot];
-        organs->slot_vertices[slot] += shape->vertex_count;
-        organs->slot_indices[slot] += shape->index_count;
-        organs->slot_foliage[slot] |= shape->is_foliage;
     }
+}
+
+// Turns what each chunk makes into where it begins, slot by slot.
+static void sum_tallies(const Placing *placing, uint32_t chunks) {
+    FrOrganPlan *organs = placing->organs;
+    uint32_t slots = organs->plan->slots;
+    for (uint32_t slot = 0; slot < slots; slot++) {
+        organs->slot_pieces[slot] = organs->piece_count;
+        for (uint32_t chunk = 0; chunk < chunks; chunk++) {
+            Tally *tally = &placing->tallies[(size_t)chunk * slots + slot], made = *tally;
+            *tally = (Tally){organs->slot_vertices[slot], organs->slot_indices[slot],
+                             organs->piece_count, false};
+            organs->slot_vertices[slot] += made.vertices;
+            organs->slot_indices[slot] += made.indices;
+            organs->slot_foliage[slot] |= made.is_foliage;
+            organs->piece_count += made.pieces;
+        }
+    }
+    organs->slot_pieces[slots] = organs->piece_count;
+}
+
+static void place_chunks(void *data, size_t begin, size_t end, int worker) {
+    const Placing *placing = data;
+    const FrOrganPlan *organs = placing->organs;
+    (void)worker;
+    for (size_t chunk = begin; chunk < end; chunk++) {
+        Tally *tallies = &placing->tallies[chunk * organs->plan->slots];
+        uint32_t from = (uint32_t)chunk * placing->grain;
+        uint32_t to = MIN(from + placing->grain, placing->count);
+        for (uint32_t i = from; i < to; i++) {
+            const FrShapeMesh *shape = piece_of(organs, i);
+            if (shape != NULL) {
+                Tally *at = &tallies[fr_slot(organs->plan->plant->organs.material[i])];
+                // Beyond 32 bits the mesh is refused before it is written.
+                organs->pieces[at->pieces++] =
+                    (FrOrganPiece){i, (uint32_t)at->vertices, at->indices};
+                at->vertices += shape->vertex_count;
+                at->indices += shape->index_count;
+            }
+        }
+    }
+}
+
+// Gives every organ that is drawn its place in its part.
+static void place_organs(FrOrganPlan *organs, uint32_t count) {
+    uint32_t slots = organs->plan->slots;
+    uint32_t wanted = slots <= MOST_SLOTS_OF_CHUNKS ? MOST_CHUNKS : 1;
+    Placing placing = {
+        .organs = organs, .count = count, .grain = MAX(count / wanted + 1, LEAST_CHUNK)};
+    uint32_t chunks = (count - 1) / placing.grain + 1;
+    FrPool *pool = organs->plan->context->pool;
+    placing.tallies = g_new0(Tally, (size_t)chunks * slots);
+    fr_parallel_for(pool, chunks, 1, tally_chunks, &placing, NULL);
+    sum_tallies(&placing, chunks);
+    organs->pieces = g_new(FrOrganPiece, organs->piece_count);
+    fr_parallel_for(pool, chunks, 1, place_chunks, &placing, NULL);
+    g_free(placing.tallies);
 }
 
 FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
@@ -136,9 +221,9 @@ FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
     *organs = (FrOrganPlan){
         .plan = plan,
         .shapes = g_new0(FrShapeMesh, plant->shapes->len + 1),
+        .shape_count = plant->shapes->len,
         .is_used = g_new0(bool, plant->shapes->len + 1),
-        .vertex = g_new(uint64_t, count),
-        .index = g_new(uint64_t, count),
+        .slot_pieces = g_new0(uint32_t, plan->slots + 1),
         .slot_vertices = g_new0(uint64_t, plan->slots),
         .slot_indices = g_new0(uint64_t, plan->slots),
         .slot_foliage = g_new0(bool, plan->slots),
@@ -157,81 +242,95 @@ FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
 }
 
 void fr_organs_clear(FrOrganPlan *organs) {
-    for (uint32_t i = 0; i < organs->plan->plant->shapes->len; i++) {
+    for (uint32_t i = 0; i < organs->shape_count; i++) {
         fr_shape_mesh_clear(&organs->shapes[i]);
     }
     g_free(organs->shapes);
     g_free(organs->is_used);
-    g_free(organs->vertex);
-    g_free(organs->index);
+    g_free(organs->pieces);
+    g_free(organs->slot_pieces);
     g_free(organs->slot_vertices);
     g_free(organs->slot_indices);
     g_free(organs->slot_foliage);
     g_free(organs->groups);
 }
 
-// Columns of the rotation, and the place.
-typedef struct FrPose {
-    vec3s x, y, z, at;
-} FrPose;
+// ---- copies ------------------------------------------------------------------------------------
 
-static FrPose pose_of(const FrPlant *plant, uint32_t organ, FrUpAxis up) {
-    vec3s at;
-    versors q;
-    fr_plant_organ_pose(plant, organ, &at, &q);
-    float xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z;
-    float yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
-    FrPose pose = {
-        .x = {{1.0F - 2.0F * (yy + zz), 2.0F * (xy + wz), 2.0F * (xz - wy)}},
-        .y = {{2.0F * (xy - wz), 1.0F - 2.0F * (xx + zz), 2.0F * (yz + wx)}},
-        .z = {{2.0F * (xz + wy), 2.0F * (yz - wx), 1.0F - 2.0F * (xx + yy)}},
-        .at = at,
-    };
-    pose.x = fr_upright(pose.x, up);
-    pose.y = fr_upright(pose.y, up);
-    pose.z = fr_upright(pose.z, up);
-    pose.at = fr_upright(pose.at, up);
+FrOrganPose fr_piece_pose(const FrOrganPlan *organs, uint32_t piece) {
+    const FrPlant *plant = organs->plan->plant;
+    uint32_t organ = organs->pieces[piece].organ;
+    const FrShapeMesh *shape = &organs->shapes[plant->organs.shape[organ]];
+    FrOrganPose pose;
+    fr_plant_organ_pose(plant, organ, &pose.at, &pose.rotation);
+    pose.scale = plant->organs.scale[organ];
+    pose.scale *= shape->is_foliage ? group_of(organs, organ)->enlarged : 1.0F;
     return pose;
 }
 
-static void copy_shape(const FrShapeMesh *shape, const FrPose *pose, float scale, uint32_t base,
-                       FrVertex *out, uint32_t *index) {
+// Columns of the rotation, and the place.
+typedef struct Matrix {
+    FrFour x, y, z, at;
+} Matrix;
+
+static FrFour four_of(vec3s v, FrUpAxis up) {
+    v = fr_upright(v, up);
+    return (FrFour){v.x, v.y, v.z, 0.0F};
+}
+
+static Matrix matrix_of(FrOrganPose pose, FrUpAxis up) {
+    versors q = pose.rotation;
+    float xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z;
+    float yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+    vec3s x = {{1.0F - 2.0F * (yy + zz), 2.0F * (xy + wz), 2.0F * (xz - wy)}};
+    vec3s y = {{2.0F * (xy - wz), 1.0F - 2.0F * (xx + zz), 2.0F * (yz + wx)}};
+    vec3s z = {{2.0F * (xz + wy), 2.0F * (yz - wx), 1.0F - 2.0F * (xx + yy)}};
+    return (Matrix){four_of(x, up), four_of(y, up), four_of(z, up), four_of(pose.at, up)};
+}
+
+static void copy_vertices(const FrShapeMesh *shape, const Matrix *matrix, float scale,
+                          FrVertex *out, bool is_streamed, FrBox *box) {
+    FrFour x = matrix->x, y = matrix->y, z = matrix->z;
+    FrFour low = {INFINITY, INFINITY, INFINITY, INFINITY}, high = -low;
     for (uint32_t i = 0; i < shape->vertex_count; i++) {
         const FrVertex *in = &shape->vertices[i];
         const float *p = in->position, *n = in->normal;
-        for (int k = 0; k < 3; k++) {
-            float x = pose->x.raw[k], y = pose->y.raw[k], z = pose->z.raw[k];
-            out[i].position[k] = pose->at.raw[k] + scale * (p[0] * x + p[1] * y + p[2] * z);
-            out[i].normal[k] = n[0] * x + n[1] * y + n[2] * z;
-        }
-        memcpy(out[i].uv, in->uv, sizeof in->uv);
+        FrFour at = matrix->at + scale * (p[0] * x + p[1] * y + p[2] * z);
+        FrFour normal = n[0] * x + n[1] * y + n[2] * z;
+        low = fr_four_min(at, low);
+        high = fr_four_max(at, high);
+        at[3] = normal[0];
+        fr_four_store(out[i].position, at, is_streamed);
+        fr_four_store(out[i].normal + 1, (FrFour){normal[1], normal[2], in->uv[0], in->uv[1]},
+                      is_streamed);
     }
-    for (uint32_t i = 0; i < shape->index_count; i++) {
-        index[i] = base + shape->indices[i];
-    }
+    memcpy(box->min, &low, sizeof box->min);
+    memcpy(box->max, &high, sizeof box->max);
 }
 
-void fr_write_organs(const FrOrganPlan *organs, size_t begin, size_t end, FrUpAxis up, FrMesh *mesh,
-                     const uint32_t *part_of, FrBox *boxes, FrDeformNote *notes) {
+void fr_write_piece(const FrOrganPlan *organs, uint32_t piece, FrUpAxis up, const FrSlab *slab,
+                    unsigned writing, FrBox *box, FrDeformNote *notes) {
     const FrPlant *plant = organs->plan->plant;
-    for (size_t i = begin; i < end; i++) {
-        if (organs->index[i] == UINT64_MAX) {
-            continue;
+    FrOrganPiece place = organs->pieces[piece];
+    const FrShapeMesh *shape = &organs->shapes[plant->organs.shape[place.organ]];
+    FrVertex *out = slab->vertices + place.vertex;
+    uint32_t *index = slab->indices + place.index;
+    uint32_t scope = fr_plan_scope(organs->plan, plant->organs.deformer[place.organ]);
+    if ((writing & FR_WRITE_INDICES) != 0) {
+        for (uint32_t i = 0; i < shape->index_count; i++) {
+            index[i] = place.vertex + shape->indices[i];
         }
-        uint32_t organ = (uint32_t)i, slot = fr_slot(plant->organs.material[i]);
-        const FrShapeMesh *shape = &organs->shapes[plant->organs.shape[i]];
-        const FrMeshPart *part = &mesh->parts[part_of[slot]];
-        FrVertex *out = mesh->vertices + part->first_vertex + organs->vertex[i];
-        uint32_t *index = mesh->indices + part->first_index + organs->index[i];
-        float scale =
-            plant->organs.scale[i] * (shape->is_foliage ? group_of(organs, organ)->enlarged : 1.0F);
-        FrPose pose = pose_of(plant, organ, up);
-        copy_shape(shape, &pose, scale, (uint32_t)organs->vertex[i], out, index);
-        uint32_t scope = fr_plan_scope(organs->plan, plant->organs.deformer[organ]);
-        if (scope != FR_NONE) {
-            fr_deform_vertices(organs->plan, scope, up, out, shape->vertex_count, index,
-                               shape->index_count, notes);
-        }
-        fr_box_widen(&boxes[slot], out, shape->vertex_count);
+    }
+    if ((writing & FR_WRITE_VERTICES) != 0) {
+        FrOrganPose pose = fr_piece_pose(organs, piece);
+        Matrix matrix = matrix_of(pose, up);
+        bool is_streamed = (writing & FR_WRITE_STREAM) != 0 && scope == FR_NONE;
+        copy_vertices(shape, &matrix, pose.scale, out, is_streamed, box);
+    }
+    if (scope != FR_NONE) {
+        fr_deform_vertices(organs->plan, scope, up, out, shape->vertex_count, index,
+                           shape->index_count, notes);
+        *box = fr_box_empty();
+        fr_box_widen(box, out, shape->vertex_count);
     }
 }

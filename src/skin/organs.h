@@ -17,11 +17,20 @@ typedef struct FrLeafGroup {
     float enlarged;
 } FrLeafGroup;
 
+/// One organ that is drawn: a copy of its shape.
+typedef struct FrOrganPiece {
+    uint32_t organ;
+    uint32_t vertex; ///< first vertex in its part
+    uint64_t index;  ///< first index in its part
+} FrOrganPiece;
+
 typedef struct FrOrganPlan {
     const FrPlan *plan;
-    FrShapeMesh *shapes;                    ///< by shape; empty where no organ has it
-    uint64_t *vertex;                       ///< by organ: its first vertex in its part
-    uint64_t *index;                        ///< by organ: its first index in its part
+    FrShapeMesh *shapes; ///< by shape; empty where no organ has it
+    uint32_t shape_count;
+    FrOrganPiece *pieces; ///< slot by slot, in the order of organs
+    uint32_t piece_count;
+    uint32_t *slot_pieces;                  ///< by slot and one more: its first piece
     uint64_t *slot_vertices, *slot_indices; ///< by slot
     bool *slot_foliage;                     ///< by slot
     bool *is_used;                          ///< by shape
@@ -29,11 +38,30 @@ typedef struct FrOrganPlan {
     double staying;                         ///< part of the leaves
 } FrOrganPlan;
 
+/// What fr_write_piece() writes.
+typedef enum FrPieceWriting {
+    FR_WRITE_VERTICES = 1 << 0,
+    FR_WRITE_INDICES = 1 << 1,
+    FR_WRITE_STREAM = 1 << 2, ///< past the caches; fr_stream_end() follows
+} FrPieceWriting;
+
+/// Where an organ is and how its shape is copied.
+typedef struct FrOrganPose {
+    vec3s at;
+    versors rotation;
+    float scale;
+} FrOrganPose;
+
 /// Neither shed nor hidden, nor on something shed.
 bool fr_organ_is_drawn(const FrPlan *plan, uint32_t organ);
 /// FR_ERR_LIMIT if the shapes alone would take too many bytes; then no shape has been made.
 FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan);
 void fr_organs_clear(FrOrganPlan *organs);
-/// Writes organs [begin, end).
-void fr_write_organs(const FrOrganPlan *organs, size_t begin, size_t end, FrUpAxis up, FrMesh *mesh,
-                     const uint32_t *part_of, FrBox *boxes, FrDeformNote *notes);
+static inline uint32_t fr_piece_slot(const FrOrganPlan *organs, uint32_t piece) {
+    return fr_slot(organs->plan->plant->organs.material[organs->pieces[piece].organ]);
+}
+FrOrganPose fr_piece_pose(const FrOrganPlan *organs, uint32_t piece);
+/// Writes a piece at its place in the slab of its slot, FrPieceWriting says what of it. `box`
+/// receives that of its vertices if they are written.
+void fr_write_piece(const FrOrganPlan *organs, uint32_t piece, FrUpAxis up, const FrSlab *slab,
+                    unsigned writing, FrBox *box, FrDeformNote *notes);

@@ -146,8 +146,7 @@ static void sweep_point_sets(FrSweep *sweep) {
 }
 
 // Points the sweep at a tube. Bark goes on from the tube before it in the run.
-static void take_tube(FrSweep *sweep, const FrTube *tube, const FrMesh *mesh,
-                      const FrMeshPart *part) {
+static void take_tube(FrSweep *sweep, const FrTube *tube, const FrSlab *slab) {
     const FrPlan *plan = sweep->plan;
     FrBark before = sweep->bark;
     sweep->tube = tube;
@@ -162,22 +161,23 @@ static void take_tube(FrSweep *sweep, const FrTube *tube, const FrMesh *mesh,
     sweep->node = tube->first;
     sweep->is_before_tip = false;
     sweep->radius = fr_tube_base_radius(plan, tube);
-    sweep->vertex = mesh->vertices + part->first_vertex + tube->first_vertex;
-    sweep->index = mesh->indices + part->first_index + tube->first_index;
+    sweep->vertex = slab->vertices + tube->first_vertex;
+    sweep->index = slab->indices + tube->first_index;
     sweep->count = (uint32_t)tube->first_vertex;
 }
 
-void fr_write_run(const FrPlan *plan, const FrRun *run, FrUpAxis up, FrMesh *mesh,
-                  const uint32_t *part_of, FrBox *boxes, FrDeformNote *notes) {
+void fr_write_run(const FrPlan *plan, const FrRun *run, FrUpAxis up, const FrSlab *slabs,
+                  FrBox *boxes, FrDeformNote *notes) {
     FrSweep sweep = {.plan = plan, .run = run, .up = up};
     for (uint32_t i = 0; i < run->tube_count; i++) {
         const FrTube *tube = &g_array_index(plan->tubes, FrTube, run->first_tube + i);
+        FrBox *box = &boxes[run->first_tube + i];
+        *box = fr_box_empty();
         if (tube->rings == 0) {
             sweep.has_ring = false;
             continue;
         }
-        const FrMeshPart *part = &mesh->parts[part_of[tube->slot]];
-        take_tube(&sweep, tube, mesh, part);
+        take_tube(&sweep, tube, &slabs[tube->slot]);
         FrVertex *vertices = sweep.vertex;
         uint32_t *indices = sweep.index;
         if (tube->is_point_sets) {
@@ -191,6 +191,6 @@ void fr_write_run(const FrPlan *plan, const FrRun *run, FrUpAxis up, FrMesh *mes
             fr_deform_vertices(plan, tube->scope, up, vertices, tube->vertices, indices,
                                tube->indices, notes);
         }
-        fr_box_widen(&boxes[tube->slot], vertices, tube->vertices);
+        fr_box_widen(box, vertices, tube->vertices);
     }
 }

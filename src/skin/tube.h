@@ -5,7 +5,13 @@
 
 #include <math.h>
 
-/// Smallest box around what one thread wrote of a part.
+/// Where the vertices and indices of one part are.
+typedef struct FrSlab {
+    FrVertex *vertices;
+    uint32_t *indices;
+} FrSlab;
+
+/// Smallest box around some vertices.
 typedef struct FrBox {
     float min[3], max[3];
 } FrBox;
@@ -36,6 +42,14 @@ static inline vec3s fr_upright(vec3s v, FrUpAxis up) {
     return up == FR_UP_Y ? (vec3s){{v.x, v.z, -v.y}} : v;
 }
 
-/// Writes every tube of the run at its place in `mesh`. `part_of` and `boxes` go by slot.
-void fr_write_run(const FrPlan *plan, const FrRun *run, FrUpAxis up, FrMesh *mesh,
-                  const uint32_t *part_of, FrBox *boxes, FrDeformNote *notes);
+static inline void fr_box_join(FrBox *box, const FrBox *other) {
+    for (int k = 0; k < 3; k++) {
+        box->min[k] = MIN(box->min[k], other->min[k]);
+        box->max[k] = MAX(box->max[k], other->max[k]);
+    }
+}
+
+/// Writes every tube of the run at its place in the slab of its slot, and the box of each into
+/// `boxes`, which go by tube.
+void fr_write_run(const FrPlan *plan, const FrRun *run, FrUpAxis up, const FrSlab *slabs,
+                  FrBox *boxes, FrDeformNote *notes);

@@ -60,7 +60,7 @@ static inline void thin_out(FrPgraph *graph, double factor) {
 static inline FrPgraph *small_graph(const Shipped *shipped) {
     FrPgraph *graph = NULL;
     uint64_t instances = UINT64_MAX;
-    for (double factor = 1; instances > 600 && factor > 0.003; factor *= 0.4) {
+    for (double factor = 1; instances > 250 && factor > 0.003; factor *= 0.4) {
         fr_pgraph_free(graph);
         graph = fr_document_reseed(shipped->document, shipped->plant, shipped->plant->seed);
         thin_out(graph, factor);

@@ -22,6 +22,42 @@ static void assert_same_plant(const FrPlant *plant, const FrPlant *fresh, const 
     }
 }
 
+/// A skin that follows the builds of a session, and the build that it shows.
+typedef struct Shown {
+    FrSkin *skin;
+    FrPgraphBuild *build;
+} Shown;
+
+static Shown shown_new(void) {
+    FrSkinParams params = fr_skin_default();
+    return (Shown){fr_skin_new(&params, FR_UP_Y), NULL};
+}
+
+static void shown_free(Shown *shown) {
+    fr_skin_free(shown->skin);
+    fr_pgraph_build_free(shown->build);
+}
+
+/// Shows a build, which it takes, and compares with a whole skin.
+static void show(Shown *shown, FrPgraphBuild *build, const char *what) {
+    FrContext context = fr_context_default();
+    FrSkinParams params = fr_skin_default();
+    const FrPlant *plant = fr_pgraph_build_plant(build);
+    FrMesh *fresh;
+    bool has_same_rows = shown->build != NULL && fr_pgraph_build_shares(build, shown->build);
+    FrStatus status = fr_skin_update(shown->skin, plant, has_same_rows, &context);
+    g_assert_cmpint(status, ==, FR_OK);
+    g_assert_cmpint(fr_skin_plant(plant, &params, FR_UP_Y, &context, &fresh), ==, FR_OK);
+    FrMesh *mesh = fr_skin_mesh(shown->skin);
+    if (fr_mesh_digest(mesh) != fr_mesh_digest(fresh)) {
+        g_error("%s: the mesh differs from a whole skin", what);
+    }
+    fr_mesh_free(mesh);
+    fr_mesh_free(fresh);
+    fr_pgraph_build_free(shown->build);
+    shown->build = build;
+}
+
 static char *messages(const FrDiags *diags) {
     return printed(diags);
 }
@@ -64,17 +100,22 @@ static void change_each_parameter(const char *path) {
     FrPgraph *graph = small_graph(&shipped);
     FrPgraphBuild *last = rebuild(graph, NULL, path);
     g_assert_nonnull(last);
+    Shown shown = shown_new();
     for (uint32_t c = 0; c < fr_pgraph_count(graph); c++) {
         for (size_t row = 0; row < rows_of(graph, c); row++) {
             void *before = aside(graph, c);
             nudge(graph, c, row);
             char *what = g_strdup_printf("%s, %s.%s", path, fr_pgraph_id(graph, c),
                                          fr_pgraph_table(fr_pgraph_kind(graph, c))->rows[row].name);
-            fr_pgraph_build_free(rebuild(graph, last, what));
+            FrPgraphBuild *build = rebuild(graph, last, what);
+            if (build != NULL) {
+                show(&shown, build, what);
+            }
             put_back(graph, c, before);
             g_free(what);
         }
     }
+    shown_free(&shown);
     fr_pgraph_build_free(last);
     fr_pgraph_free(graph);
     fr_document_free(shipped.document);
@@ -101,29 +142,25 @@ static void test_every_parameter_of_presets(void) {
 static void edit_at_random(const char *path, FrKey key) {
     Shipped shipped = shipped_load(path);
     FrPgraph *graph = shipped.plant != NULL ? small_graph(&shipped) : NULL;
-    FrPgraphBuild *last = graph != NULL ? rebuild(graph, NULL, path) : NULL;
+    Shown shown = shown_new();
     for (uint32_t edit = 0; edit < 12 && graph != NULL; edit++) {
         uint32_t c = (uint32_t)(fr_random(key, edit, 0) * fr_pgraph_count(graph));
         size_t row = (size_t)(fr_random(key, edit, 1) * (double)rows_of(graph, c));
         void *before = aside(graph, c);
         nudge(graph, c, row);
-        FrPgraphBuild *build = rebuild(graph, last, path);
-        bool is_undone = build == NULL || edit % 3 == 2;
+        FrPgraphBuild *build = rebuild(graph, shown.build, path);
         if (build != NULL) {
-            fr_pgraph_build_free(last);
-            last = build;
+            show(&shown, build, path);
         }
-        if (is_undone) {
+        if (build == NULL || edit % 3 == 2) {
             put_back(graph, c, before);
-            build = rebuild(graph, last, path);
-            fr_pgraph_build_free(last);
-            last = build;
+            show(&shown, rebuild(graph, shown.build, path), path);
         } else {
             fr_params_clear(fr_pgraph_table(fr_pgraph_kind(graph, c)), before);
             g_free(before);
         }
     }
-    fr_pgraph_build_free(last);
+    shown_free(&shown);
     fr_pgraph_free(graph);
     fr_document_free(shipped.document);
 }

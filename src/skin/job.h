@@ -1,0 +1,53 @@
+// One skinning of a plant on its way: first everything is planned and counted, then written.
+#pragma once
+
+#include "skin/organs.h"
+
+/// What a slot holds.
+typedef struct FrSlotSum {
+    uint64_t vertices, indices;
+    bool is_foliage;
+} FrSlotSum;
+
+/// The wood of a plant, measured. Shared by skinnings of plants that have the same wood.
+typedef struct FrWood {
+    FrPlan plan;
+    FrSlotSum *sums;   ///< by slot
+    FrBox *boxes;      ///< by tube, once it has been written
+    FrDigest inputs;   ///< what it depends on besides the plant's nodes and axes
+    FrDigest *digests; ///< by run: see piece.h; NULL where nobody wants to know
+} FrWood;
+
+typedef struct FrSkinJob {
+    FrWood *wood;
+    FrOrganPlan organs;
+    FrUpAxis up;
+    FrMeshPart *parts;
+    uint32_t part_count;
+    uint32_t *part_of;           ///< of wood by slot, then of organs; FR_NONE without any
+    uint64_t vertices, indices;  ///< of all parts
+    FrScopes *scopes;            ///< of deformations; NULL
+    FrPlant *moved;              ///< moved by those of the skeleton; NULL
+    uint32_t deformations;
+    FrDeformNote *notes; ///< by worker, then deformation
+} FrSkinJob;
+
+/// Plans and counts. `same`, if not NULL, is the wood of a plant whose nodes and axes are those of
+/// this one and whose inputs are fr_wood_inputs(). What fails leaves a job that must be ended.
+FR_MUST_USE FrStatus fr_job_begin(FrSkinJob *job, const FrPlant *plant, const FrSkinParams *params,
+                                  FrUpAxis up, FrWood *same, const FrContext *context);
+/// Ends it; what `job` holds stays valid for fr_job_clear() only if that comes later.
+void fr_job_clear(FrSkinJob *job);
+/// Reports what was noted about deformations.
+void fr_job_report(FrSkinJob *job, const FrPlant *plant);
+/// What the wood depends on besides nodes and axes: profiles, sizes of bark tiles.
+FrDigest fr_wood_inputs(const FrPlant *plant);
+FrWood *fr_wood_ref(FrWood *wood);
+void fr_wood_unref(FrWood *wood);
+
+static inline uint32_t fr_job_slots(const FrSkinJob *job) {
+    return job->wood->plan.slots;
+}
+static inline FrDeformNote *fr_job_notes(const FrSkinJob *job, int worker) {
+    return job->notes != NULL ? job->notes + (size_t)worker * job->deformations : NULL;
+}
