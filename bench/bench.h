@@ -34,6 +34,7 @@ void bench_expr(void);
 void bench_pgraph(void);
 void bench_lsystem(void);
 void bench_skin(void);
+void bench_rebuild(void);
 void bench_variation(void);
 void bench_nurbs(void);
 void bench_density(void);

@@ -10,9 +10,11 @@ static const struct {
     const char *name;
     void (*run)(void);
 } benches[] = {
-    {"plant", bench_plant},     {"expr", bench_expr},       {"pgraph", bench_pgraph},
-    {"lsystem", bench_lsystem}, {"skin", bench_skin},       {"variation", bench_variation},
-    {"nurbs", bench_nurbs},     {"density", bench_density}, {"io", bench_io},
+    {"plant", bench_plant},         {"expr", bench_expr},
+    {"pgraph", bench_pgraph},       {"lsystem", bench_lsystem},
+    {"skin", bench_skin},           {"rebuild", bench_rebuild},
+    {"variation", bench_variation}, {"nurbs", bench_nurbs},
+    {"density", bench_density},     {"io", bench_io},
 };
 
 static GArray *results; // BenchResult
@@ -115,8 +117,9 @@ int main(int argc, char **argv) {
         }
     }
     if (unknown != 0) {
-        fprintf(stderr, "usage: frond-bench [plant] [expr] [pgraph] [lsystem] [skin] [variation] "
-                        "[nurbs] [density] [io] [--json]\n");
+        fprintf(stderr,
+                "usage: frond-bench [plant] [expr] [pgraph] [lsystem] [skin] [rebuild] [variation] "
+                "[nurbs] [density] [io] [--json]\n");
         return 2;
     }
     if (is_json) {

@@ -3,4 +3,5 @@
 #pragma once
 
 #include "frond/io.h"
+#include "frond/rebuild.h"
 #include "frond/render.h"

@@ -1,6 +1,7 @@
 /// A document built: each plant once for every seed it stands with.
 #include "scene/growing.h"
 #include "scene/obstacles.h"
+#include "scene/rebuild.h"
 #include "scene/varied.h"
 
 #include <string.h>
@@ -15,6 +16,7 @@ typedef struct Build {
     int64_t seed;            ///< < 0: as the document says
     uint64_t bytes;
     FrGrowing *growing;
+    FrSceneParts *parts; ///< NULL
 } Build;
 
 static void clear_plant(void *data) {
@@ -94,13 +96,39 @@ static void warn_of_nothing(const Build *build, const FrPlantDef *definition,
     }
 }
 
+/// Builds a p-graph that takes over what it can from the last scene's.
+static FrStatus rebuild_plant(Build *build, const FrPlantDef *definition, int64_t seed,
+                              const char *key, FrScenePlant *made) {
+    FrSceneParts *parts = build->parts;
+    FrPgraphBuild *kept;
+    FrPgraph *reseeded = (uint64_t)seed == definition->seed
+                             ? NULL
+                             : fr_document_reseed(build->document, definition, (uint64_t)seed);
+    FrStatus status = fr_pgraph_rebuild(reseeded != NULL ? reseeded : definition->pgraph,
+                                        parts->last_of(parts->data, key), build->context, &kept);
+    fr_pgraph_free(reseeded);
+    if (status == FR_OK) {
+        const FrPgraphCounts *counts = fr_pgraph_build_counts(kept);
+        FrPlant *plant = (FrPlant *)fr_pgraph_build_plant(kept);
+        guint components = plant->components->len;
+        *made = (FrScenePlant){plant, counts->instances, g_new0(uint64_t, components + 1), 0};
+        memcpy(made->by_component, counts->by_component, components * sizeof(uint64_t));
+        g_array_index(parts->parts, FrScenePart, parts->parts->len - 1).build = kept;
+    }
+    return status;
+}
+
 /// Builds a definition with a seed and adds it to the scene.
-static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t seed) {
+static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t seed,
+                            const char *key) {
     if (definition->kind == FR_PLANT_VARIED) {
         return vary_plant(build, definition, seed < 0 ? definition->seed : (uint64_t)seed);
     }
     FrScenePlant made;
-    FrStatus status = fr_scene_grow(build->document, definition, seed, build->context, &made, NULL);
+    bool is_rebuilt = build->parts != NULL && definition->kind == FR_PLANT_PGRAPH;
+    FrStatus status =
+        is_rebuilt ? rebuild_plant(build, definition, seed, key, &made)
+                   : fr_scene_grow(build->document, definition, seed, build->context, &made, NULL);
     if (status == FR_OK) {
         warn_of_nothing(build, definition, made.plant);
         g_array_append_val(build->scene->plants, made);
@@ -127,7 +155,11 @@ static FrStatus use_plant(Build *build, const FrPlantDef *definition, int64_t ow
     }
     *index = build->scene->plants->len;
     g_hash_table_insert(build->built, key, GUINT_TO_POINTER(*index + 1));
-    return build_plant(build, definition, seed);
+    if (build->parts != NULL) {
+        FrScenePart part = {*index, g_strdup(key), NULL};
+        g_array_append_val(build->parts->parts, part);
+    }
+    return build_plant(build, definition, seed, key);
 }
 
 /// Adds a plant where `stand` says.
@@ -235,8 +267,24 @@ static void free_varied(void *varied) {
     fr_varied_free(varied);
 }
 
+/// Plants that builds own are theirs to free.
+static void forget_built(const Build *build) {
+    const GArray *plants = build->scene->plants;
+    for (guint i = 0; build->parts != NULL && i < build->parts->parts->len; i++) {
+        const FrScenePart *part = &g_array_index(build->parts->parts, FrScenePart, i);
+        if (part->build != NULL && part->plant < plants->len) {
+            g_array_index(plants, FrScenePlant, part->plant).plant = NULL;
+        }
+    }
+}
+
 FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContext *context,
                         FrScene **scene) {
+    return fr_scene_build_parts(document, seed, context, NULL, scene);
+}
+
+FrStatus fr_scene_build_parts(const FrDocument *document, int64_t seed, const FrContext *context,
+                              FrSceneParts *parts, FrScene **scene) {
     *scene = NULL;
     Build build = {.document = document,
                    .context = context,
@@ -245,7 +293,8 @@ FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContex
                    .built = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
                    .varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied),
                    .seed = seed,
-                   .growing = fr_growing_new()};
+                   .growing = fr_growing_new(),
+                   .parts = parts};
     const GPtrArray *plants = fr_document_plants(document);
     for (guint i = 0; i < plants->len; i++) {
         FrPlantDef *definition = g_ptr_array_index(plants, i);
@@ -263,6 +312,7 @@ FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContex
     g_hash_table_unref(build.built);
     g_hash_table_unref(build.varied);
     if (status != FR_OK) {
+        forget_built(&build);
         fr_scene_free(build.scene);
         return status;
     }

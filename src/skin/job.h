@@ -24,10 +24,10 @@ typedef struct FrSkinJob {
     FrUpAxis up;
     FrMeshPart *parts;
     uint32_t part_count;
-    uint32_t *part_of;           ///< of wood by slot, then of organs; FR_NONE without any
-    uint64_t vertices, indices;  ///< of all parts
-    FrScopes *scopes;            ///< of deformations; NULL
-    FrPlant *moved;              ///< moved by those of the skeleton; NULL
+    uint32_t *part_of;          ///< of wood by slot, then of organs; FR_NONE without any
+    uint64_t vertices, indices; ///< of all parts
+    FrScopes *scopes;           ///< of deformations; NULL
+    FrPlant *moved;             ///< moved by those of the skeleton; NULL
     uint32_t deformations;
     FrDeformNote *notes; ///< by worker, then deformation
 } FrSkinJob;

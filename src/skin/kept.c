@@ -1,8 +1,8 @@
 // A skin that is kept: what is written is only what a change has moved or formed anew.
 //
 // Every part has memory of its own with some room to spare, so that parts grow without moving each
-// other. A piece (a run of tubes, an organ) is written unless what stands in its place was made from
-// the same; digests tell (piece.h). Writing cannot fail: all memory is taken before it begins.
+// other. A piece (a run of tubes, an organ) is written unless what stands in its place was made
+// from the same; digests tell (piece.h). Writing cannot fail: all memory is taken before it begins.
 #include "skin/kept_state.h"
 
 #include "skin/mesh.h"
@@ -113,8 +113,8 @@ static void digest_all(FrSkinState *state, const FrSkinState *before, bool has_s
     digest_places(state);
     bool has_same_poses = has_same_rows && before != NULL && before->is_known &&
                           are_same_organs(&job->organs, &before->job.organs);
-    state->poses = has_same_poses ? g_atomic_rc_box_acquire(before->poses)
-                                  : fr_digest_poses(&job->organs);
+    state->poses =
+        has_same_poses ? g_atomic_rc_box_acquire(before->poses) : fr_digest_poses(&job->organs);
     state->shapes = fr_digest_shapes(&job->organs);
     state->is_known = true;
 }
@@ -135,9 +135,8 @@ FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
     bool has_same_wood = has_same_rows && before != NULL && before->is_known &&
                          before->job.wood->inputs == fr_wood_inputs(plant) &&
                          plant->deformers->len == 0;
-    FrStatus status =
-        fr_job_begin(&state->job, plant, &skin->params, skin->up,
-                     has_same_wood ? before->job.wood : NULL, context);
+    FrStatus status = fr_job_begin(&state->job, plant, &skin->params, skin->up,
+                                   has_same_wood ? before->job.wood : NULL, context);
     if (status == FR_OK) {
         state->slots = fr_job_slots(&state->job);
         status = take_rooms(skin, state, context->diags);

@@ -5,8 +5,8 @@
 
 #include "frond/skin.h"
 
-/// Plans and counts; takes the memory that will be needed. What fails leaves the skin as it was, and
-/// so does fr_skin_drop(). `has_same_rows` is as in fr_skin_update().
+/// Plans and counts; takes the memory that will be needed. What fails leaves the skin as it was,
+/// and so does fr_skin_drop(). `has_same_rows` is as in fr_skin_update().
 FR_MUST_USE FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
                                   const FrContext *context);
 /// Writes what has been planned; cannot fail. The plant must still be there.

@@ -10,26 +10,26 @@ typedef struct FrRoom {
     FrSlab slab;
     uint64_t vertices, indices;
     uint64_t serial; ///< other memory has other bits in it
-    bool is_new; ///< taken by this plan
+    bool is_new;     ///< taken by this plan
 } FrRoom;
 
 /// What stands in the rooms of a skin, or is to.
 typedef struct FrSkinState {
     FrSkinJob job;
     uint32_t slots;
-    FrRoom *rooms; ///< two a slot: of wood, of organs
-    bool is_known; ///< not where deformations act: then everything is written
-    FrDigest *runs; ///< by run, with its places and rooms
-    FrDigest *poses; ///< by organ
+    FrRoom *rooms;         ///< two a slot: of wood, of organs
+    bool is_known;         ///< not where deformations act: then everything is written
+    FrDigest *runs;        ///< by run, with its places and rooms
+    FrDigest *poses;       ///< by organ
     FrShapeDigest *shapes; ///< by shape
-    uint32_t *shape_of; ///< by piece
-    FrBox *boxes; ///< by piece
+    uint32_t *shape_of;    ///< by piece
+    FrBox *boxes;          ///< by piece
 } FrSkinState;
 
 struct FrSkin {
     FrSkinParams params;
     FrUpAxis up;
-    FrSkinState *state; ///< NULL before the first update
+    FrSkinState *state;   ///< NULL before the first update
     FrSkinState *planned; ///< NULL but between fr_skin_plan() and fr_skin_write()
     FrSkinPart *parts;
     uint32_t part_count;

@@ -37,8 +37,7 @@ static FrDigest digest_axis(FrDigest digest, const FrPlan *plan, uint32_t axis) 
     digest = fr_digest(digest, sizes, sizeof sizes);
     digest = fr_digest_both(digest, axes->path[axis]); // which turns its bark
     if (axes->profile[axis] < plant->profiles->len) {
-        const FrProfile *profile =
-            &g_array_index(plant->profiles, FrProfile, axes->profile[axis]);
+        const FrProfile *profile = &g_array_index(plant->profiles, FrProfile, axes->profile[axis]);
         digest = fr_profile_digest(digest, profile);
     }
     // Nodes mostly follow each other: one block, else several.
@@ -135,8 +134,8 @@ static void digest_poses(void *data, size_t begin, size_t end, int worker) {
                            pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w};
         uint64_t words[4];
         memcpy(words, numbers, sizeof words);
-        posing->digests[posing->organs->pieces[i].organ] = fr_digest_both(fr_digest_both(words[0], words[1]),
-                                            fr_digest_both(words[2], words[3]));
+        posing->digests[posing->organs->pieces[i].organ] =
+            fr_digest_both(fr_digest_both(words[0], words[1]), fr_digest_both(words[2], words[3]));
     }
 }
 

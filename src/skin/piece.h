@@ -1,9 +1,9 @@
 // What pieces of a mesh are made from, as digests: a piece whose digest and place are as they were
 // has the bits that it had.
 //
-// A run of tubes depends on its nodes and axes, on what its branches stand on (which depends in turn
-// on what that stands on), on cross-sections, bark tiles and the settings. An organ depends on where
-// it is and on its shape. What is read from anywhere else by what fr_write_run() and
+// A run of tubes depends on its nodes and axes, on what its branches stand on (which depends in
+// turn on what that stands on), on cross-sections, bark tiles and the settings. An organ depends on
+// where it is and on its shape. What is read from anywhere else by what fr_write_run() and
 // fr_write_piece() call belongs in here.
 #pragma once
 

@@ -20,9 +20,9 @@ typedef struct Touch {
 typedef struct Writing {
     FrSkinState *now;
     const FrSkinState *before; // NULL: nothing of it is of use
-    FrSlab *wood, *organs; // by slot
-    GHashTable *runs;      // digest → run of before, + 1; NULL where both have the same runs
-    Touch *touches;        // by worker, then room
+    FrSlab *wood, *organs;     // by slot
+    GHashTable *runs;          // digest → run of before, + 1; NULL where both have the same runs
+    Touch *touches;            // by worker, then room
     bool is_streamed;
 } Writing;
 
@@ -103,8 +103,8 @@ static unsigned what_to_write(const Writing *writing, uint32_t piece, uint32_t s
     *before = twin;
     const FrShapeDigest *shape = &now->shapes[now->shape_of[piece]];
     const FrShapeDigest *same = &last->shapes[last->shape_of[twin]];
-    bool has_vertices = shape->vertices == same->vertices && now->poses[a->pieces[piece].organ] ==
-                                                                 last->poses[b->pieces[twin].organ];
+    bool has_vertices = shape->vertices == same->vertices &&
+                        now->poses[a->pieces[piece].organ] == last->poses[b->pieces[twin].organ];
     return (has_vertices ? 0u : FR_WRITE_VERTICES) |
            (shape->indices == same->indices ? 0u : FR_WRITE_INDICES);
 }
