@@ -158,18 +158,19 @@ static void make_parts(FrSkinJob *job) {
 }
 
 FrStatus fr_job_begin(FrSkinJob *job, const FrPlant *plant, const FrSkinParams *params, FrUpAxis up,
-                      FrWood *same, const FrContext *context) {
+                      const FrSkinJob *same, const FrContext *context) {
     *job = (FrSkinJob){.up = up};
     fr_progress_report(context->progress, "skin", 0.0);
     if (same != NULL) {
-        job->wood = fr_wood_ref(same);
+        job->wood = fr_wood_ref(same->wood);
         job->wood->plan.plant = plant;
         job->wood->plan.context = context;
     } else {
         const FrPlant *posed = begin_deforming(job, plant, fr_pool_threads(context->pool));
         job->wood = wood_new(posed, job->scopes, params, context);
     }
-    FrStatus status = fr_organs_init(&job->organs, &job->wood->plan);
+    FrStatus status =
+        fr_organs_init(&job->organs, &job->wood->plan, same != NULL ? &same->organs : NULL);
     fr_progress_report(context->progress, "skin", 0.3);
     if (status == FR_OK && fr_progress_is_cancelled(context->progress)) {
         status = FR_CANCELLED;

@@ -32,11 +32,11 @@ typedef struct FrSkinJob {
     FrDeformNote *notes; ///< by worker, then deformation
 } FrSkinJob;
 
-/// Plans and counts. `same`, if not NULL, is the wood of a plant whose nodes and axes are those of
-/// this one and whose inputs are fr_wood_inputs(). What fails leaves a job that must be ended.
+/// Plans and counts. `same`, if not NULL, is of a plant that has the same rows as this one, whose
+/// wood has the inputs fr_wood_inputs() and which nothing deforms. What fails leaves a job that
+/// must be cleared.
 FR_MUST_USE FrStatus fr_job_begin(FrSkinJob *job, const FrPlant *plant, const FrSkinParams *params,
-                                  FrUpAxis up, FrWood *same, const FrContext *context);
-/// Ends it; what `job` holds stays valid for fr_job_clear() only if that comes later.
+                                  FrUpAxis up, const FrSkinJob *same, const FrContext *context);
 void fr_job_clear(FrSkinJob *job);
 /// Reports what was noted about deformations.
 void fr_job_report(FrSkinJob *job, const FrPlant *plant);

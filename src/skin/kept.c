@@ -35,7 +35,8 @@ void fr_skin_state_free(FrSkinState *state) {
     g_clear_pointer(&state->poses, g_atomic_rc_box_release);
     g_free(state->shapes);
     g_free(state->shape_of);
-    g_free(state->boxes);
+    g_free(state->blocks);
+    g_free(state->slot_blocks);
     g_free(state);
 }
 
@@ -97,24 +98,14 @@ static void digest_places(FrSkinState *state) {
     }
 }
 
-static bool are_same_organs(const FrOrganPlan *a, const FrOrganPlan *b) {
-    bool is_same = a->piece_count == b->piece_count && a->staying >= 1.0 && b->staying >= 1.0;
-    for (uint32_t i = 0; i < a->piece_count && is_same; i++) {
-        is_same = a->pieces[i].organ == b->pieces[i].organ;
-    }
-    return is_same;
-}
-
-static void digest_all(FrSkinState *state, const FrSkinState *before, bool has_same_rows) {
+static void digest_all(FrSkinState *state, const FrSkinState *before) {
     FrSkinJob *job = &state->job;
     if (job->wood->digests == NULL) {
         fr_digest_wood(job->wood);
     }
     digest_places(state);
-    bool has_same_poses = has_same_rows && before != NULL && before->is_known &&
-                          are_same_organs(&job->organs, &before->job.organs);
-    state->poses =
-        has_same_poses ? g_atomic_rc_box_acquire(before->poses) : fr_digest_poses(&job->organs);
+    state->poses = job->organs.shares_pieces ? g_atomic_rc_box_acquire(before->poses)
+                                             : fr_digest_poses(&job->organs);
     state->shapes = fr_digest_shapes(&job->organs);
     state->is_known = true;
 }
@@ -122,21 +113,45 @@ static void digest_all(FrSkinState *state, const FrSkinState *before, bool has_s
 static void note_shapes(FrSkinState *state) {
     const FrOrganPlan *organs = &state->job.organs;
     state->shape_of = g_new(uint32_t, organs->piece_count);
-    state->boxes = g_new(FrBox, organs->piece_count);
     for (uint32_t i = 0; i < organs->piece_count; i++) {
         state->shape_of[i] = organs->plan->plant->organs.shape[organs->pieces[i].organ];
     }
 }
 
+static void make_blocks(FrSkinState *state) {
+    const FrOrganPlan *organs = &state->job.organs;
+    uint32_t slots = fr_job_slots(&state->job);
+    state->blocks = g_new(FrBlock, organs->piece_count / FR_BLOCK_PIECES + slots);
+    state->slot_blocks = g_new(uint32_t, slots + 1);
+    for (uint32_t slot = 0; slot < slots; slot++) {
+        state->slot_blocks[slot] = state->block_count;
+        for (uint32_t first = organs->slot_pieces[slot]; first < organs->slot_pieces[slot + 1];
+             first += FR_BLOCK_PIECES) {
+            uint32_t left = organs->slot_pieces[slot + 1] - first;
+            state->blocks[state->block_count++] =
+                (FrBlock){.slot = slot, .first = first, .count = MIN(left, FR_BLOCK_PIECES)};
+        }
+    }
+    state->slot_blocks[slots] = state->block_count;
+}
+
 FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
                       const FrContext *context) {
     const FrSkinState *before = skin->state;
+    const GArray *shapes = plant->shapes;
+    FrDigest forms = fr_digest(0, shapes->data, shapes->len * sizeof(FrShape));
+    bool is_same = has_same_rows && before != NULL && before->is_known &&
+                   before->job.wood->inputs == fr_wood_inputs(plant) && plant->deformers->len == 0;
+    skin->is_unchanged = is_same && before->forms == forms &&
+                         memcmp(&before->limits, &context->limits, sizeof before->limits) == 0;
+    if (skin->is_unchanged) {
+        return FR_OK;
+    }
     FrSkinState *state = skin->planned = g_new0(FrSkinState, 1);
-    bool has_same_wood = has_same_rows && before != NULL && before->is_known &&
-                         before->job.wood->inputs == fr_wood_inputs(plant) &&
-                         plant->deformers->len == 0;
+    state->forms = forms;
+    state->limits = context->limits;
     FrStatus status = fr_job_begin(&state->job, plant, &skin->params, skin->up,
-                                   has_same_wood ? before->job.wood : NULL, context);
+                                   is_same ? &before->job : NULL, context);
     if (status == FR_OK) {
         state->slots = fr_job_slots(&state->job);
         status = take_rooms(skin, state, context->diags);
@@ -146,9 +161,10 @@ FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
         return status;
     }
     if (state->job.scopes == NULL) {
-        digest_all(state, before, has_same_rows);
+        digest_all(state, before);
     }
     note_shapes(state);
+    make_blocks(state);
     return FR_OK;
 }
 
@@ -161,6 +177,7 @@ void fr_skin_drop(FrSkin *skin) {
     }
     fr_skin_state_free(state);
     skin->planned = NULL;
+    skin->is_unchanged = false;
 }
 
 // ---- the skin as others see it -----------------------------------------------------------------

@@ -13,6 +13,14 @@ typedef struct FrRoom {
     bool is_new;     ///< taken by this plan
 } FrRoom;
 
+/// Some pieces of one slot, and the box around their vertices.
+typedef struct FrBlock {
+    uint32_t slot, first, count;
+    FrBox box;
+} FrBlock;
+
+enum { FR_BLOCK_PIECES = 64 };
+
 /// What stands in the rooms of a skin, or is to.
 typedef struct FrSkinState {
     FrSkinJob job;
@@ -23,7 +31,11 @@ typedef struct FrSkinState {
     FrDigest *poses;       ///< by organ
     FrShapeDigest *shapes; ///< by shape
     uint32_t *shape_of;    ///< by piece
-    FrBox *boxes;          ///< by piece
+    FrBlock *blocks;       ///< all pieces, slot by slot
+    uint32_t block_count;
+    uint32_t *slot_blocks; ///< by slot of the job: its first block
+    FrDigest forms;        ///< of all the plant's shapes
+    FrLimits limits;
 } FrSkinState;
 
 struct FrSkin {
@@ -31,6 +43,7 @@ struct FrSkin {
     FrUpAxis up;
     FrSkinState *state;   ///< NULL before the first update
     FrSkinState *planned; ///< NULL but between fr_skin_plan() and fr_skin_write()
+    bool is_unchanged;    ///< what is planned is what stands there already
     FrSkinPart *parts;
     uint32_t part_count;
     uint64_t serial; ///< of the last memory taken

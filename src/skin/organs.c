@@ -210,12 +210,35 @@ static void place_organs(FrOrganPlan *organs, uint32_t count) {
     placing.tallies = g_new0(Tally, (size_t)chunks * slots);
     fr_parallel_for(pool, chunks, 1, tally_chunks, &placing, NULL);
     sum_tallies(&placing, chunks);
-    organs->pieces = g_new(FrOrganPiece, organs->piece_count);
+    organs->pieces = g_atomic_rc_box_alloc(MAX(organs->piece_count, 1) * sizeof *organs->pieces);
     fr_parallel_for(pool, chunks, 1, place_chunks, &placing, NULL);
     g_free(placing.tallies);
 }
 
-FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
+// Whether organs of the same rows have the places that they have in another plan.
+static bool can_share(const FrOrganPlan *organs, const FrOrganPlan *other) {
+    bool is_same = other->shape_count == organs->shape_count && other->staying >= 1.0 &&
+                   organs->staying >= 1.0 && other->pieces != NULL;
+    for (uint32_t i = 0; i < organs->shape_count && is_same; i++) {
+        const FrShapeMesh *a = &organs->shapes[i], *b = &other->shapes[i];
+        is_same = a->vertex_count == b->vertex_count && a->index_count == b->index_count &&
+                  a->is_foliage == b->is_foliage;
+    }
+    return is_same;
+}
+
+static void share_pieces(FrOrganPlan *organs, const FrOrganPlan *other) {
+    size_t slots = organs->plan->slots;
+    organs->pieces = g_atomic_rc_box_acquire(other->pieces);
+    organs->piece_count = other->piece_count;
+    organs->shares_pieces = true;
+    memcpy(organs->slot_pieces, other->slot_pieces, (slots + 1) * sizeof *organs->slot_pieces);
+    memcpy(organs->slot_vertices, other->slot_vertices, slots * sizeof *organs->slot_vertices);
+    memcpy(organs->slot_indices, other->slot_indices, slots * sizeof *organs->slot_indices);
+    memcpy(organs->slot_foliage, other->slot_foliage, slots * sizeof *organs->slot_foliage);
+}
+
+FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan, const FrOrganPlan *same) {
     const FrPlant *plant = plan->plant;
     uint32_t count = plan->detail.foliage ? plant->organs.count : 0;
     *organs = (FrOrganPlan){
@@ -236,7 +259,11 @@ FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan) {
     FrStatus status = prepare_shapes(organs);
     if (status == FR_OK) {
         count_leaves(organs, count);
-        place_organs(organs, count);
+        if (same != NULL && can_share(organs, same)) {
+            share_pieces(organs, same);
+        } else {
+            place_organs(organs, count);
+        }
     }
     return status;
 }
@@ -247,7 +274,7 @@ void fr_organs_clear(FrOrganPlan *organs) {
     }
     g_free(organs->shapes);
     g_free(organs->is_used);
-    g_free(organs->pieces);
+    g_clear_pointer(&organs->pieces, g_atomic_rc_box_release);
     g_free(organs->slot_pieces);
     g_free(organs->slot_vertices);
     g_free(organs->slot_indices);

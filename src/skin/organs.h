@@ -28,8 +28,9 @@ typedef struct FrOrganPlan {
     const FrPlan *plan;
     FrShapeMesh *shapes; ///< by shape; empty where no organ has it
     uint32_t shape_count;
-    FrOrganPiece *pieces; ///< slot by slot, in the order of organs
+    FrOrganPiece *pieces; ///< slot by slot, in the order of organs; atomic rc box
     uint32_t piece_count;
+    bool shares_pieces;                     ///< with another plan
     uint32_t *slot_pieces;                  ///< by slot and one more: its first piece
     uint64_t *slot_vertices, *slot_indices; ///< by slot
     bool *slot_foliage;                     ///< by slot
@@ -55,7 +56,8 @@ typedef struct FrOrganPose {
 /// Neither shed nor hidden, nor on something shed.
 bool fr_organ_is_drawn(const FrPlan *plan, uint32_t organ);
 /// FR_ERR_LIMIT if the shapes alone would take too many bytes; then no shape has been made.
-FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan);
+/// `same` (NULL: none) is of a plant with the same rows, whose pieces are shared if they can be.
+FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan, const FrOrganPlan *same);
 void fr_organs_clear(FrOrganPlan *organs);
 static inline uint32_t fr_piece_slot(const FrOrganPlan *organs, uint32_t piece) {
     return fr_slot(organs->plan->plant->organs.material[organs->pieces[piece].organ]);

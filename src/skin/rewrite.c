@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-enum { RUN_GRAIN = 16, PIECE_GRAIN = 512 };
+enum { RUN_GRAIN = 16, BLOCK_GRAIN = 8 };
 
 // Organs of more bytes than this are written past the caches.
 #define STREAMED_FROM ((uint64_t)4 << 20)
@@ -85,22 +85,16 @@ static void write_runs(void *data, size_t begin, size_t end, int worker) {
     }
 }
 
-// What of a piece is to be written; *before is the one that stands there, if any of it stays.
-static unsigned what_to_write(const Writing *writing, uint32_t piece, uint32_t slot,
-                              uint32_t *before) {
-    const unsigned all = FR_WRITE_VERTICES | FR_WRITE_INDICES;
+// What of a piece is to be written, all but what stands in its place already.
+static unsigned what_to_write(const Writing *writing, uint32_t piece, uint32_t slot) {
     const FrSkinState *now = writing->now, *last = writing->before;
-    if (last == NULL || slot >= fr_job_slots(&last->job) ||
-        fr_room_of(now, slot, true)->serial != fr_room_of(last, slot, true)->serial) {
-        return all;
-    }
     const FrOrganPlan *a = &now->job.organs, *b = &last->job.organs;
+    const unsigned all = FR_WRITE_VERTICES | FR_WRITE_INDICES;
     uint32_t twin = b->slot_pieces[slot] + piece - a->slot_pieces[slot];
     if (twin >= b->slot_pieces[slot + 1] || a->pieces[piece].vertex != b->pieces[twin].vertex ||
         a->pieces[piece].index != b->pieces[twin].index) {
         return all;
     }
-    *before = twin;
     const FrShapeDigest *shape = &now->shapes[now->shape_of[piece]];
     const FrShapeDigest *same = &last->shapes[last->shape_of[twin]];
     bool has_vertices = shape->vertices == same->vertices &&
@@ -109,27 +103,66 @@ static unsigned what_to_write(const Writing *writing, uint32_t piece, uint32_t s
            (shape->indices == same->indices ? 0u : FR_WRITE_INDICES);
 }
 
-static void write_organs(void *data, size_t begin, size_t end, int worker) {
-    const Writing *writing = data;
+// The box of a block whose vertices all stand there already; NULL if it is not known.
+static const FrBox *box_before(const Writing *writing, const FrBlock *block) {
+    const FrSkinState *now = writing->now, *last = writing->before;
+    uint32_t index = (uint32_t)(block - now->blocks) - now->slot_blocks[block->slot] +
+                     last->slot_blocks[block->slot];
+    return last->blocks[index].count == block->count ? &last->blocks[index].box : NULL;
+}
+
+static void write_piece(const Writing *writing, const FrBlock *block, uint32_t piece, unsigned what,
+                        Touch *touched, FrBox *box, FrDeformNote *notes) {
     const FrSkinJob *job = &writing->now->job;
-    for (uint32_t i = (uint32_t)begin; i < end; i++) {
-        uint32_t slot = fr_piece_slot(&job->organs, i), before = FR_NONE;
-        unsigned what = what_to_write(writing, i, slot, &before);
-        FrBox *box = &writing->now->boxes[i];
-        if ((what & FR_WRITE_VERTICES) == 0) {
-            *box = writing->before->boxes[before];
-        }
-        Touch *touched = touch_of(writing, worker, slot, true);
+    const FrShapeMesh *shape = &job->organs.shapes[writing->now->shape_of[piece]];
+    FrOrganPiece place = job->organs.pieces[piece];
+    fr_write_piece(&job->organs, piece, job->up, &writing->organs[block->slot],
+                   what | (writing->is_streamed ? FR_WRITE_STREAM : 0u), box, notes);
+    touch(touched, place.vertex, (what & FR_WRITE_VERTICES) != 0 ? shape->vertex_count : 0,
+          place.index, (what & FR_WRITE_INDICES) != 0 ? shape->index_count : 0);
+}
+
+static void write_block(const Writing *writing, FrBlock *block, Touch *touched,
+                        FrDeformNote *notes) {
+    const FrSkinState *now = writing->now, *last = writing->before;
+    const FrSlab *slab = &writing->organs[block->slot];
+    bool is_new =
+        last == NULL || block->slot >= fr_job_slots(&last->job) ||
+        fr_room_of(now, block->slot, true)->serial != fr_room_of(last, block->slot, true)->serial;
+    uint32_t kept[FR_BLOCK_PIECES], kept_count = 0;
+    block->box = fr_box_empty();
+    for (uint32_t piece = block->first; piece < block->first + block->count; piece++) {
+        unsigned what = is_new ? FR_WRITE_VERTICES | FR_WRITE_INDICES
+                               : what_to_write(writing, piece, block->slot);
+        FrBox box = fr_box_empty();
         if (what != 0) {
-            const FrShapeMesh *shape = &job->organs.shapes[writing->now->shape_of[i]];
-            FrOrganPiece place = job->organs.pieces[i];
-            fr_write_piece(&job->organs, i, job->up, &writing->organs[slot],
-                           what | (writing->is_streamed ? FR_WRITE_STREAM : 0u), box,
-                           fr_job_notes(job, worker));
-            touch(touched, place.vertex, (what & FR_WRITE_VERTICES) != 0 ? shape->vertex_count : 0,
-                  place.index, (what & FR_WRITE_INDICES) != 0 ? shape->index_count : 0);
+            write_piece(writing, block, piece, what, touched, &box, notes);
         }
-        fr_box_join(&touched->box, box);
+        if ((what & FR_WRITE_VERTICES) == 0) {
+            kept[kept_count++] = piece;
+        }
+        fr_box_join(&block->box, &box);
+    }
+    const FrBox *before = kept_count == block->count ? box_before(writing, block) : NULL;
+    if (before != NULL) {
+        block->box = *before;
+        return;
+    }
+    for (uint32_t k = 0; k < kept_count; k++) {
+        const FrShapeMesh *shape = &now->job.organs.shapes[now->shape_of[kept[k]]];
+        fr_box_widen(&block->box, slab->vertices + now->job.organs.pieces[kept[k]].vertex,
+                     shape->vertex_count);
+    }
+}
+
+static void write_blocks(void *data, size_t begin, size_t end, int worker) {
+    const Writing *writing = data;
+    FrDeformNote *notes = fr_job_notes(&writing->now->job, worker);
+    for (size_t i = begin; i < end; i++) {
+        FrBlock *block = &writing->now->blocks[i];
+        Touch *touched = touch_of(writing, worker, block->slot, true);
+        write_block(writing, block, touched, notes);
+        fr_box_join(&touched->box, &block->box);
     }
     fr_stream_end();
 }
@@ -230,14 +263,29 @@ static Writing begin_writing(const FrSkin *skin, int workers) {
     return writing;
 }
 
+static void note_unchanged(FrSkin *skin) {
+    for (uint32_t i = 0; i < skin->part_count; i++) {
+        FrSkinPart *part = &skin->parts[i];
+        part->is_moved = false;
+        part->changed_vertex = part->changed_vertex_end = 0;
+        part->changed_index = part->changed_index_end = 0;
+    }
+    skin->work.runs_written = skin->work.organs_written = 0;
+    skin->is_unchanged = false;
+}
+
 void fr_skin_write(FrSkin *skin, const FrPlant *plant, const FrContext *context) {
+    if (skin->is_unchanged) {
+        note_unchanged(skin);
+        return;
+    }
     FrSkinJob *job = &skin->planned->job;
     int workers = fr_pool_threads(context->pool);
     Writing writing = begin_writing(skin, workers);
     fr_parallel_for(context->pool, job->wood->plan.runs->len, RUN_GRAIN, write_runs, &writing,
                     NULL);
     fr_progress_report(context->progress, "skin", 0.6);
-    fr_parallel_for(context->pool, job->organs.piece_count, PIECE_GRAIN, write_organs, &writing,
+    fr_parallel_for(context->pool, skin->planned->block_count, BLOCK_GRAIN, write_blocks, &writing,
                     NULL);
     join_touches(&writing, workers);
     list_parts(skin, &writing);
