@@ -34,7 +34,7 @@ void fr_skin_state_free(FrSkinState *state) {
     g_free(state->runs);
     g_clear_pointer(&state->poses, g_atomic_rc_box_release);
     g_free(state->shapes);
-    g_free(state->shape_of);
+    g_clear_pointer(&state->shape_of, g_atomic_rc_box_release);
     g_free(state->blocks);
     g_free(state->slot_blocks);
     g_free(state);
@@ -110,9 +110,13 @@ static void digest_all(FrSkinState *state, const FrSkinState *before) {
     state->is_known = true;
 }
 
-static void note_shapes(FrSkinState *state) {
+static void note_shapes(FrSkinState *state, const FrSkinState *before) {
     const FrOrganPlan *organs = &state->job.organs;
-    state->shape_of = g_new(uint32_t, organs->piece_count);
+    if (organs->shares_pieces) {
+        state->shape_of = g_atomic_rc_box_acquire(before->shape_of);
+        return;
+    }
+    state->shape_of = g_atomic_rc_box_alloc(MAX(organs->piece_count, 1) * sizeof(uint32_t));
     for (uint32_t i = 0; i < organs->piece_count; i++) {
         state->shape_of[i] = organs->plan->plant->organs.shape[organs->pieces[i].organ];
     }
@@ -163,7 +167,7 @@ FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
     if (state->job.scopes == NULL) {
         digest_all(state, before);
     }
-    note_shapes(state);
+    note_shapes(state, before);
     make_blocks(state);
     return FR_OK;
 }

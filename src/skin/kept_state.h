@@ -28,9 +28,9 @@ typedef struct FrSkinState {
     FrRoom *rooms;         ///< two a slot: of wood, of organs
     bool is_known;         ///< not where deformations act: then everything is written
     FrDigest *runs;        ///< by run, with its places and rooms
-    FrDigest *poses;       ///< by organ
+    FrDigest *poses;       ///< by organ; atomic rc box
     FrShapeDigest *shapes; ///< by shape
-    uint32_t *shape_of;    ///< by piece
+    uint32_t *shape_of;    ///< by piece; atomic rc box
     FrBlock *blocks;       ///< all pieces, slot by slot
     uint32_t block_count;
     uint32_t *slot_blocks; ///< by slot of the job: its first block

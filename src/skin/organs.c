@@ -287,11 +287,12 @@ void fr_organs_clear(FrOrganPlan *organs) {
 FrOrganPose fr_piece_pose(const FrOrganPlan *organs, uint32_t piece) {
     const FrPlant *plant = organs->plan->plant;
     uint32_t organ = organs->pieces[piece].organ;
-    const FrShapeMesh *shape = &organs->shapes[plant->organs.shape[organ]];
     FrOrganPose pose;
     fr_plant_organ_pose(plant, organ, &pose.at, &pose.rotation);
     pose.scale = plant->organs.scale[organ];
-    pose.scale *= shape->is_foliage ? group_of(organs, organ)->enlarged : 1.0F;
+    if (organs->staying < 1.0 && organs->shapes[plant->organs.shape[organ]].is_foliage) {
+        pose.scale *= group_of(organs, organ)->enlarged;
+    }
     return pose;
 }
 
