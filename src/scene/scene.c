@@ -118,6 +118,15 @@ static FrStatus rebuild_plant(Build *build, const FrPlantDef *definition, int64_
     return status;
 }
 
+/// Of a graph with grafts nobody knows all that it is made of.
+static bool can_be_rebuilt(const Build *build, const FrPlantDef *definition) {
+    bool is_whole = build->parts != NULL && definition->kind == FR_PLANT_PGRAPH;
+    for (uint32_t c = 0; is_whole && c < fr_pgraph_count(definition->pgraph); c++) {
+        is_whole = fr_pgraph_kind(definition->pgraph, c) != FR_COMPONENT_GRAFT;
+    }
+    return is_whole;
+}
+
 /// Builds a definition with a seed and adds it to the scene.
 static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t seed,
                             const char *key) {
@@ -125,10 +134,10 @@ static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t 
         return vary_plant(build, definition, seed < 0 ? definition->seed : (uint64_t)seed);
     }
     FrScenePlant made;
-    bool is_rebuilt = build->parts != NULL && definition->kind == FR_PLANT_PGRAPH;
     FrStatus status =
-        is_rebuilt ? rebuild_plant(build, definition, seed, key, &made)
-                   : fr_scene_grow(build->document, definition, seed, build->context, &made, NULL);
+        can_be_rebuilt(build, definition)
+            ? rebuild_plant(build, definition, seed, key, &made)
+            : fr_scene_grow(build->document, definition, seed, build->context, &made, NULL);
     if (status == FR_OK) {
         warn_of_nothing(build, definition, made.plant);
         g_array_append_val(build->scene->plants, made);

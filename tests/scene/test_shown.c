@@ -195,7 +195,7 @@ static void test_structure(void) {
     static const char *const paths[] = {"examples/figure2.frond",     "data/presets/daisy.frond",
                                         "examples/collection.frond",  "examples/figure2.frond",
                                         "examples/shore-trees.frond", "data/presets/fern.frond",
-                                        "data/presets/tulip.frond",   "examples/indicators.frond"};
+                                        "examples/blossom.frond",     "examples/indicators.frond"};
     FrRebuild *shown = rebuild_new();
     for (size_t i = 0; i < G_N_ELEMENTS(paths); i++) {
         FrDocument *document = load(paths[i]);
