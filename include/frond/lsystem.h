@@ -141,7 +141,7 @@ FR_API void fr_lderivation_free(FrLderivation *derivation);
 FR_API uint64_t fr_lderivation_length(const FrLderivation *derivation);
 /// Steps done so far.
 FR_API uint64_t fr_lderivation_step(const FrLderivation *derivation);
-/// True after stop() of the language.
+/// True after stop() of the language; stop(1) goes on.
 FR_API bool fr_lderivation_is_stopped(const FrLderivation *derivation);
 /// Does `steps` more steps. The bits do not depend on the number of threads. On a failure the
 /// string is that of the last whole step.

@@ -230,7 +230,8 @@ double fr_lbuiltin_call(FrLmachine *machine, uint32_t index, const double *x, ui
     case F_CURVE_GAL:
         return fr_lview_curve_length(machine->view, x[0]);
     case F_STOP:
-        machine->stop = x[0] == 0 ? -1 : (int)CLAMP(x[0], 1, 1000);
+        // stop(1) halts what moves, to go on from there: a derivation does not end.
+        machine->is_stopped = machine->is_stopped || x[0] != 1;
         return 0;
     case F_SET_LENGTH:
         if (machine->set_length != NULL && x[0] >= 0) {

@@ -290,7 +290,7 @@ static FrStatus take_step(FrLderivation *derivation, const FrContext *context) {
 
 FrStatus fr_lderivation_run(FrLderivation *derivation, uint64_t steps, const FrContext *context) {
     FrStatus status = FR_OK;
-    for (uint64_t i = 0; i < steps && status == FR_OK && derivation->machine.stop == 0; i++) {
+    for (uint64_t i = 0; i < steps && status == FR_OK && !derivation->machine.is_stopped; i++) {
         if (fr_progress_is_cancelled(context->progress)) {
             return FR_CANCELLED;
         }
@@ -313,7 +313,7 @@ uint64_t fr_lderivation_step(const FrLderivation *derivation) {
 }
 
 bool fr_lderivation_is_stopped(const FrLderivation *derivation) {
-    return derivation->machine.stop != 0;
+    return derivation->machine.is_stopped;
 }
 
 const FrLstring *fr_lderivation_string(const FrLderivation *derivation) {

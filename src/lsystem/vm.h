@@ -34,7 +34,7 @@ typedef struct FrLmachine {
     uint32_t fault_count;
     int64_t *set_length; ///< SetDerivationLength writes here
     uint64_t length;
-    int stop;        ///< argument of stop(), 0: go on
+    bool is_stopped; ///< by stop()
     bool is_endless; ///< the limit of loops was reached
     void (*print)(void *user, const char *text);
     void *print_user;

@@ -59,6 +59,45 @@ static void test_one_stream(void) {
     end(&d);
 }
 
+/// What a bud of generation n becomes: two axes or, where `lost` is 1 or 2, an axis and an end.
+static void append_fork(GString *string, int n, int lost) {
+    for (int side = 1; side <= 2; side++) {
+        if (lost == side) {
+            g_string_append(string, "[-L]");
+        } else {
+            g_string_append_printf(string, "[+FA(%d)]", n + 1);
+        }
+    }
+}
+
+// Weights of parameters, through four steps: every place of the string draws, brackets too.
+static void test_weights_of_parameters(void) {
+    uint64_t x = 1 | UINT64_C(155) << 32;
+    GString *now_ = g_string_new("F[A(1)][A(1)]");
+    for (int step = 0; step < 4; step++) {
+        GString *next_ = g_string_new(NULL);
+        for (const char *c = now_->str; *c != '\0'; c++) {
+            double u = next(&x);
+            if (*c != 'A') {
+                g_string_append_c(next_, *c);
+                continue;
+            }
+            int n = c[2] - '0';
+            float first = 10, second = first + (float)n, all = second + (float)n;
+            double at = u * (double)all;
+            append_fork(next_, n, at <= (double)first ? 0 : at <= (double)second ? 1 : 2);
+            c += 3;
+        }
+        g_string_free(now_, TRUE);
+        now_ = next_;
+    }
+    check_cpfg("seed: 1\n", "F[A(1)][A(1)]",
+               "A(n) --> [+FA(n+1)][+FA(n+1)] : 10\nA(n) --> [-L][+FA(n+1)] : n\n"
+               "A(n) --> [+FA(n+1)][-L] : n",
+               4, now_->str);
+    g_string_free(now_, TRUE);
+}
+
 static void test_distributions(void) {
     const char *start = "Start: { srand(7); }\n";
     check_cpfg(start, "A(nran(10,2),nran(10,2),nran(10,2),nran(10,2))", "X --> X", 0,
@@ -143,6 +182,12 @@ static void test_homomorphism_of_calls(void) {
     end(&d);
 }
 
+static void test_stop(void) {
+    const char *head = "Start: { n = 0; }\nEndEach: { n = n+1; if (n == 2) { stop(1); }\n"
+                       "if (n == 4) { stop(0); } }\n";
+    check_cpfg(head, "A", "A --> AB", 9, "ABBBB");
+}
+
 int main(int argc, char **argv) {
     static const struct {
         const char *name;
@@ -153,6 +198,7 @@ int main(int argc, char **argv) {
         {"weights are relative and blocks are kept", test_weights},
         {"seed zero leaves the stream unseeded", test_seed_zero},
         {"one stream chooses for all L-systems", test_one_stream},
+        {"weights of parameters choose at every place", test_weights_of_parameters},
         {"distributions draw as in cpfg", test_distributions},
         {"a cut ends at a dollar and after decomposition", test_cut_ends},
         {"decomposition takes pairs of the old string", test_decomposed_pairs},
@@ -160,6 +206,7 @@ int main(int argc, char **argv) {
         {"fractions of indices count", test_fractions_of_indices},
         {"a homomorphism with a seed has its own stream", test_homomorphism_seed},
         {"a called L-system has its own homomorphism", test_homomorphism_of_calls},
+        {"stop(1) goes on", test_stop},
     };
     g_test_init(&argc, &argv, NULL);
     for (size_t i = 0; i < G_N_ELEMENTS(tests); i++) {
