@@ -51,7 +51,8 @@ typedef struct FrParam {
     double min, max;     ///< hard range in the document's unit, both ends allowed
     const char *unit;    ///< "" if dimensionless
     const char *choices; ///< names separated by spaces: for CHOICE what to choose from, for
-                         ///< FORMULA its variables in the order of their values; else ""
+                         ///< FORMULA its variables in the order of their values, for NUMBER
+                         ///< "self" if it may differ along the component itself; else ""
     const char *meaning; ///< one line
     size_t offset;       ///< of the field in its struct
 } FrParam;

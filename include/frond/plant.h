@@ -125,6 +125,10 @@ typedef struct FrBlade {
     uint32_t outline;       ///< profile: points (along 0–1, half width 0–0.5 of `width`), both
                             ///< halves if closed; FR_NONE is elliptic
     uint32_t along_curve, across_curve; ///< profiles as y(x) that spread the curvatures, FR_NONE
+    uint32_t across_along, fold_along, twist_along,
+        wave_along; ///< one more than the profile whose
+                    ///< y(x) multiplies curvature_across, fold, the rate of twist, wave
+                    ///< from base to tip; 0: the same all along
     uint16_t segments_along, segments_across; ///< ≥ 1; across: per half
 } FrBlade;
 

@@ -1,6 +1,8 @@
 /// The reference page of elements and attributes, from the same rows as everything else.
 #include "document/format.h"
 
+#include <string.h>
+
 static const char head[] =
     "# The `.frond` document\n"
     "\n"
@@ -15,7 +17,8 @@ static const char head[] =
     "| kind | text |\n"
     "|---|---|\n"
     "| number | `45`, from first to last `80..30`, plus or minus `45 ~ 5`, walked by a function "
-    "`80..30 ~ 5 : t^2` or a curve `80..30 : crown`, or an expression `= 3 + 2*i` |\n"
+    "`80..30 ~ 5 : t^2` or a curve `80..30 : crown`, or an expression `= 3 + 2*i`; with \\* it may "
+    "also differ along the component itself: `90 \\| self ramp` |\n"
     "| real, integer | `3.5`, `12`: the same for all; also an expression of numbers and sliders, "
     "`= 2*size` |\n"
     "| switch | `yes` or `no`, or such an expression: not 0 is yes |\n"
@@ -67,7 +70,9 @@ static void append_range(GString *out, const FrParam *row) {
 
 static void append_row(GString *out, const FrParam *row, const FrElement *element) {
     char *name = fr_param_attribute(row);
-    g_string_append_printf(out, "| `%s` | %s | ", name, kind_name(row->kind));
+    bool is_along = row->kind == FR_PARAM_NUMBER && strcmp(row->choices, "self") == 0;
+    g_string_append_printf(out, "| `%s` | %s%s | ", name, kind_name(row->kind),
+                           is_along ? " \\*" : "");
     if (fr_element_requires(element, name)) {
         g_string_append(out, "required");
     } else if (*row->default_text != '\0') {

@@ -406,13 +406,47 @@ static bool parse_formula(Cursor *cursor, const FrParam *param, FrExpr **field) 
     return true;
 }
 
+// Where a number names the place along the component itself: the clause of its curve, or all of it.
+static FrSpan self_place(const FrValueText *value) {
+    const char *text = value->text;
+    for (size_t k = strcspn(text, "|"); text[k] != '\0'; k += strcspn(text + k, "|")) {
+        k += strspn(text + k, "| \t\r\n");
+        size_t size = strcspn(text + k, "| \t\r\n");
+        if ((size == 4 && strncmp(text + k, "self", size) == 0) || (size == 1 && text[k] == 's')) {
+            return fr_place(value->span, k, k + size);
+        }
+    }
+    return value->span;
+}
+
+static FrStatus parse_number(const FrValueText *value, const FrParam *param, FrNumber *field) {
+    FrNumber number = {0};
+    FrStatus status = fr_number_parse(&number, value->text, value->span, scale_of(param),
+                                      param->min, param->max, value->scope, value->diags);
+    if (status == FR_OK && strcmp(param->choices, "self") != 0 &&
+        fr_number_uses(&number, FR_VAR_s)) {
+        char *attribute = fr_param_attribute(param);
+        fr_diags_add(value->diags, FR_ERROR, "not-along-itself", self_place(value),
+                     "'%s' is one number for the whole component: it cannot differ along it",
+                     attribute);
+        g_free(attribute);
+        status = FR_ERR_DOCUMENT;
+    }
+    if (status != FR_OK) {
+        fr_number_clear(&number);
+        return status;
+    }
+    fr_number_clear(field);
+    *field = number;
+    return FR_OK;
+}
+
 FrStatus fr_value_parse(const FrValueText *value, const FrParam *param, void *field) {
     Cursor cursor = {.value = value, .size = strlen(value->text)};
     bool is_good = true;
     switch (param->kind) {
     case FR_PARAM_NUMBER:
-        return fr_number_parse(field, value->text, value->span, scale_of(param), param->min,
-                               param->max, value->scope, value->diags);
+        return parse_number(value, param, field);
     case FR_PARAM_REAL:
         is_good = parse_real(&cursor, param, field);
         break;

@@ -128,14 +128,22 @@ static FrStatus find_shapes(FrBuild *build) {
     if (expansion->blades == NULL) {
         return FR_OK;
     }
-    for (uint32_t organ = expansion->first_organ; organ < plant->organs.count; organ++) {
-        if (plant->organs.shape[organ] != FR_NONE) {
+    FrEvaluator evaluator = {.faults = expansion->faults[0]};
+    for (uint32_t row = 0; row < expansion->level.count; row++) {
+        const FrPrepared *prepared = fr_stage_prepared(expansion, expansion->level.stage[row]);
+        uint32_t organ = expansion->level.organ_count[row];
+        if (prepared->kind != FR_COMPONENT_LEAF || plant->organs.shape[organ] != FR_NONE) {
             continue;
         }
-        uint32_t component = plant->organs.component[organ];
-        plant->organs.shape[organ] =
-            fr_plant_add_shape(plant, &expansion->blades[organ - expansion->first_organ]);
-        const FrPrototype *prototype = fr_pgraph_prototype(expansion->graph, component);
+        FrShape *shape = &expansion->blades[organ - expansion->first_organ];
+        if (prepared->is_along) {
+            fr_instance_enter(expansion, row, &evaluator);
+            fr_enter_leaf_shape(expansion, row, &evaluator);
+            fr_leaf_along(&shape->blade, prepared->params, &evaluator, plant);
+        }
+        plant->organs.shape[organ] = fr_plant_add_shape(plant, shape);
+        const FrPrototype *prototype =
+            fr_pgraph_prototype(expansion->graph, plant->organs.component[organ]);
         if (plant->shapes->len > build->context->limits.shapes) {
             return fr_limit_check(plant->shapes->len, build->context->limits.shapes, "shapes",
                                   prototype->id, prototype->span, build->context->diags);

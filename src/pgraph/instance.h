@@ -88,6 +88,8 @@ void fr_instance_make(const FrExpansion *expansion, uint32_t row, FrEvaluator *e
 
 /// A child that is not multiplied, of the instance in `row`.
 FrChild fr_single_child(const FrExpansion *expansion, uint32_t row, FrPose site);
+/// The variables of a leaf's shape: close ones are taken as one.
+void fr_enter_leaf_shape(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// Writes row `organ` of the plant's organs and returns it.
 uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t organ, FrPose pose,
                         uint32_t shape);

@@ -157,6 +157,15 @@ static versors leaf_rotation(const FrExpansion *expansion, uint32_t row, FrPose 
     return fr_frame_step(back, frame);
 }
 
+void fr_enter_leaf_shape(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
+    const FrPrepared *prepared = prepared_of(expansion, row);
+    uint32_t variant = (uint32_t)(expansion->level.key[row] % prepared->variant_count);
+    double *value = evaluator->vars.value;
+    value[FR_VAR_x] = round(value[FR_VAR_x] * SHAPE_POSITIONS) / SHAPE_POSITIONS;
+    value[FR_VAR_height] = round(value[FR_VAR_height] / SHAPE_HEIGHT) * SHAPE_HEIGHT;
+    evaluator->vars.key = fr_variant_key(expansion->graph, prepared, variant);
+}
+
 uint32_t fr_instance_leaf_shape(const FrExpansion *expansion, uint32_t row, uint32_t organ,
                                 FrEvaluator *evaluator) {
     const FrPrepared *prepared = prepared_of(expansion, row);
@@ -167,10 +176,7 @@ uint32_t fr_instance_leaf_shape(const FrExpansion *expansion, uint32_t row, uint
     if (prepared->shape_choice == FR_SHAPE_VARIANT) {
         return prepared->variants[variant];
     }
-    double *value = evaluator->vars.value;
-    value[FR_VAR_x] = round(value[FR_VAR_x] * SHAPE_POSITIONS) / SHAPE_POSITIONS;
-    value[FR_VAR_height] = round(value[FR_VAR_height] / SHAPE_HEIGHT) * SHAPE_HEIGHT;
-    evaluator->vars.key = fr_variant_key(expansion->graph, prepared, variant);
+    fr_enter_leaf_shape(expansion, row, evaluator);
     expansion->blades[organ - expansion->first_organ] = fr_leaf_shape(prepared, evaluator);
     return FR_NONE; // found after the loop
 }

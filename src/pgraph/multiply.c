@@ -102,8 +102,9 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
     versors turn = fr_turned_zyz(azimuth, FR_GET(branching_angle), PI / 2 + FR_GET(roll));
     double radius = fr_limb_radius(stem, branching->limb, branching->at);
     azimuth -= 2 * PI * floor(azimuth / (2 * PI));
-    *reach = (vec3s){{(float)radius * cosf((float)azimuth),
-                      (float)(radius * stem->flatness) * sinf((float)azimuth), 0}};
+    *reach = (vec3s){
+        {(float)radius * cosf((float)azimuth),
+         (float)(radius * fr_stem_flatness(stem, branching->at)) * sinf((float)azimuth), 0}};
     if (stem->internodes > 0) {
         site.rotation = turn; // internodes have the stem's frame
     } else {

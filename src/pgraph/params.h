@@ -35,13 +35,13 @@
     X(NUMBER, length, "1", 0, 1000, "m", "", "length of the stem, or part of its parent's")        \
     X(CHOICE, length_mode, "absolute", 0, 0, "", "absolute of-parent",                             \
       "length in metres, or relative to the parent stem's")                                        \
-    X(NUMBER, radius, "0.02", 0, 100, "m", "", "radius at the base, or part of the parent's")      \
+    X(NUMBER, radius, "0.02", 0, 100, "m", "self", "radius at the base, or part of the parent's")  \
     X(CHOICE, radius_mode, "absolute", 0, 0, "", "absolute of-parent",                             \
       "radius in metres, or relative to the parent stem's where it is attached")                   \
     X(NUMBER, taper, "0.8", 0, 1, "", "", "how much thinner the tip is: 0 not, 1 a point")         \
     X(CURVE, profile, "", 0, 0, "", "", "radius along the stem, in radii; instead of taper")       \
     X(NUMBER, min_radius, "0.0005", 0, 100, "m", "", "never thinner than this")                    \
-    X(NUMBER, flatness, "1", 0.001, 1000, "", "", "thickness along y over that along x")           \
+    X(NUMBER, flatness, "1", 0.001, 1000, "", "self", "thickness along y over that along x")       \
     X(NUMBER, flare, "0", 0, 20, "", "", "how much wider the foot is, in radii")                   \
     X(REAL, flare_height, "0.1", 0.001, 1, "", "", "height of the wide foot, part of the length")  \
     X(POINTS, section, "", 0, 0, "", "", "cross-section of radius 1; empty: a circle")             \
@@ -66,16 +66,16 @@
     X(NUMBER, fork_radius, "0.8", 0.01, 1, "", "", "radius of each arm over that before the fork") \
     X(NUMBER, fork_straightness, "0", 0, 1, "", "", "how far arms turn back on their way")         \
     X(INTEGER, segments, "0", 0, 1000, "", "", "internodes, objects of a string; 0: as needed")    \
-    X(NUMBER, curvature, "0", -3600, 3600, "deg", "",                                              \
+    X(NUMBER, curvature, "0", -3600, 3600, "deg", "self",                                          \
       "turn from base to tip, towards its y axis: up on a branch")                                 \
     X(CURVE, curvature_curve, "", 0, 0, "", "", "multiplies the curvature along the stem")         \
-    X(NUMBER, twist, "0", -36000, 36000, "deg", "", "turn about itself from base to tip")          \
+    X(NUMBER, twist, "0", -36000, 36000, "deg", "self", "turn about itself from base to tip")      \
     X(NUMBER, deviation, "0", 0, 90, "deg", "", "turn away from each branch: zigzag")              \
-    X(NUMBER, gnarl, "0", 0, 180, "deg", "", "how far it wanders to the sides")                    \
+    X(NUMBER, gnarl, "0", 0, 180, "deg", "self", "how far it wanders to the sides")                \
     X(NUMBER, gnarl_frequency, "3", 0, 100, "", "", "how often it wanders over its length")        \
-    X(NUMBER, gravitropism, "0", -20, 20, "", "", "turns down; weeping; negative: away")           \
-    X(NUMBER, phototropism, "0", -20, 20, "", "", "turns up to the light; negative: away")         \
-    X(NUMBER, plagiotropism, "0", -20, 20, "", "", "turns to the horizontal; negative: away")      \
+    X(NUMBER, gravitropism, "0", -20, 20, "", "self", "turns down; weeping; negative: away")       \
+    X(NUMBER, phototropism, "0", -20, 20, "", "self", "turns up to the light; negative: away")     \
+    X(NUMBER, plagiotropism, "0", -20, 20, "", "self", "turns to the horizontal; negative: away")  \
     X(TEXT, path, "", 0, 0, "", "", "points x,y,z x,y,z of the curve for course=path, in m")       \
     X(INTEGER, steps, "4", 1, 100000, "", "", "cross-sections or objects for course=steps")        \
     X(VECTOR, step_translate, "0, 0, 0.1", -1000, 1000, "m", "", "moved by in each step")          \
@@ -127,13 +127,14 @@
       "form of the blade")                                                                         \
     X(POINTS, outline_points, "", 0, 0, "", "",                                                    \
       "own form: along 0-1, half width 0-0.5, base to tip; instead of outline")                    \
-    X(NUMBER, curvature_along, "0", -720, 720, "deg", "", "turn from base to tip, upwards")        \
+    X(NUMBER, curvature_along, "0", -720, 720, "deg", "self", "turn from base to tip, upwards")    \
     X(CURVE, along_curve, "", 0, 0, "", "", "spreads curvature-along from base to tip")            \
-    X(NUMBER, curvature_across, "0", -720, 720, "deg", "", "turn from midrib to margin, upwards")  \
+    X(NUMBER, curvature_across, "0", -720, 720, "deg", "self",                                     \
+      "turn from midrib to margin, upwards")                                                       \
     X(CURVE, across_curve, "", 0, 0, "", "", "spreads curvature-across from base to tip")          \
-    X(NUMBER, fold, "0", -180, 180, "deg", "", "angle each half is lifted about the midrib")       \
-    X(NUMBER, twist, "0", -720, 720, "deg", "", "turn about the midrib from base to tip")          \
-    X(NUMBER, wave, "0", 0, 1, "", "", "height of the waves of the margin, of the width")          \
+    X(NUMBER, fold, "0", -180, 180, "deg", "self", "angle each half is lifted about the midrib")   \
+    X(NUMBER, twist, "0", -720, 720, "deg", "self", "turn about the midrib from base to tip")      \
+    X(NUMBER, wave, "0", 0, 1, "", "self", "height of the waves of the margin, of the width")      \
     X(NUMBER, waves, "3", 0, 100, "", "", "waves along the margin")                                \
     X(INTEGER, segments_along, "6", 1, 64, "", "", "segments from base to tip")                    \
     X(INTEGER, segments_across, "2", 1, 32, "", "", "segments of each half")                       \

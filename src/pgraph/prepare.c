@@ -1,5 +1,6 @@
 #include "pgraph/prepare.h"
 
+#include "pgraph/along.h"
 #include "pgraph/choice.h"
 #include "pgraph/global.h"
 #include "pgraph/revolved.h"
@@ -14,14 +15,14 @@ static bool is_always(const FrNumber *number, double value) {
     return number->is_constant && number->constant == value;
 }
 
-// Whether a parameter depends on anything but the path's random numbers.
+// Whether a parameter depends on anything but the path's random numbers and the place along itself.
 static bool depends_on_place(const FrNumber *number) {
     if (number->is_constant) {
         return false;
     }
     for (int var = 0; var < FR_VAR_COUNT; var++) {
         // The plain range is walked before the function, but only t tells where.
-        if (fr_number_uses(number, (FrVar)var)) {
+        if (var != FR_VAR_s && fr_number_uses(number, (FrVar)var)) {
             return true;
         }
     }
@@ -240,6 +241,7 @@ static void prepare_stem(FrPrepared *made, const FrPrototype *prototype, FrPlant
     }
     // Objects of radius 1, placed with the stem's radius as their scale.
     made->shape = add_primitive(plant, stem->primitive, (vec3s){{2, 2, 2}}, stem->detail);
+    made->along = fr_along_find(stem);
     made->bend_factor = total_bend(stem->curvature_curve);
     if (stem->course == FR_COURSE_PATH) {
         made->path = sample_path(prototype);
@@ -284,6 +286,7 @@ static void prepare_leaf(FrPrepared *made, const FrPgraph *graph, const FrProtot
     }
     made->shape_choice = depends ? FR_SHAPE_EVALUATED : varies ? FR_SHAPE_VARIANT : FR_SHAPE_SAME;
     made->variant_count = (uint32_t)leaf->variants;
+    made->is_along = fr_leaf_is_along(leaf);
     if (depends) {
         return;
     }
@@ -294,6 +297,7 @@ static void prepare_leaf(FrPrepared *made, const FrPgraph *graph, const FrProtot
     for (uint32_t k = 0; k < count; k++) {
         evaluator.vars.key = fr_variant_key(graph, made, k);
         FrShape shape = fr_leaf_shape(made, &evaluator);
+        fr_leaf_along(&shape.blade, leaf, &evaluator, plant);
         made->variants[k] = fr_plant_add_shape(plant, &shape);
     }
     made->shape = made->variants[0];

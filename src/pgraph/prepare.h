@@ -29,7 +29,9 @@ typedef struct FrPrepared {
     bool is_stem;      ///< horn or tree
     bool is_string;    ///< … made of objects
     bool is_point_set; ///< simple with primitive tube or area
+    bool is_along;     ///< a leaf with parameters that differ along it
     bool bears;        ///< multiplies at least one link
+    uint32_t along;    ///< parameters of a stem that differ along it, bits 1 << FrAlong
     uint32_t profile;  ///< cross-section, of the plant; FR_NONE
     uint32_t shape;    ///< primitive, or the one shape of a leaf, of the plant; FR_NONE
     FrShapeChoice shape_choice;
@@ -60,6 +62,11 @@ void fr_prepared_free(FrPrepared *prepared, uint32_t count);
 
 /// A leaf's shape for the instance or variant whose variables are set.
 FrShape fr_leaf_shape(const FrPrepared *prepared, FrEvaluator *evaluator);
+/// Whether any of its parameters differs along the leaf itself.
+bool fr_leaf_is_along(const FrLeafParams *leaf);
+/// Adds what does, of the instance or variant whose variables are set, to its blade.
+void fr_leaf_along(FrBlade *blade, const FrLeafParams *leaf, FrEvaluator *evaluator,
+                   FrPlant *plant);
 /// The key of a leaf's variant.
 FrKey fr_variant_key(const FrPgraph *graph, const FrPrepared *prepared, uint32_t variant);
 

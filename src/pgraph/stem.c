@@ -1,6 +1,7 @@
 // Measuring stems: numbers, internodes, radii, places. How they bend is in stem_grow.c.
 #include "pgraph/stem.h"
 
+#include "pgraph/along.h"
 #include "pgraph/fork.h"
 
 #include <math.h>
@@ -28,25 +29,33 @@ static uint32_t clamp_count(double count) {
     return count >= (double)(UINT32_MAX - 1) ? UINT32_MAX - 1 : count > 0 ? (uint32_t)count : 0;
 }
 
+// How large a parameter is, on the average where it differs along the stem.
+static double size_of(const FrStem *stem, FrAlong which, double value) {
+    return fr_is_along(stem, which) ? fr_along_size(stem, which) : fabs(value);
+}
+
 static uint32_t adaptive_internodes(const FrStem *stem) {
     const FrStemParams *params = stem->prepared->params;
     if (stem->prepared->is_string) {
         double beads = stem->radius > 0 ? stem->length / (2 * stem->radius) : 1;
         return (uint32_t)fmax(1, fmin(beads, MOST_BEADS));
     }
-    double turn = fabs(stem->curvature) * stem->prepared->bend_factor;
-    double pull = fabs(stem->tropism.up) + fabs(stem->tropism.down) + fabs(stem->tropism.flat);
+    double turn = size_of(stem, FR_ALONG_CURVATURE, stem->curvature) * stem->prepared->bend_factor;
+    double pull = size_of(stem, FR_ALONG_PHOTOTROPISM, stem->tropism.up) +
+                  size_of(stem, FR_ALONG_GRAVITROPISM, stem->tropism.down) +
+                  size_of(stem, FR_ALONG_PLAGIOTROPISM, stem->tropism.flat);
     turn += PI * (1 - exp(-pull));
     double count = turn / BEND_PER_INTERNODE;
     if (turn > LEAST_BEND) {
         count = fmax(count, LEAST_INTERNODES_OF_BEND);
     }
-    if (stem->gnarl > 0) {
+    double gnarl = size_of(stem, FR_ALONG_GNARL, stem->gnarl);
+    if (gnarl > 0) {
         double most = INTERNODES_PER_GNARL * stem->gnarl_frequency;
-        double wanted = TURNS_PER_GNARL * stem->gnarl * stem->gnarl_frequency / GNARL_PER_INTERNODE;
+        double wanted = TURNS_PER_GNARL * gnarl * stem->gnarl_frequency / GNARL_PER_INTERNODE;
         count = fmax(count, fmin(most, fmax(wanted, stem->gnarl_frequency)));
     }
-    if (params->profile != NULL) {
+    if (params->profile != NULL || fr_is_along(stem, FR_ALONG_RADIUS)) {
         count = fmax(count, INTERNODES_OF_PROFILE);
     }
     if (stem->flare > 0) {
@@ -164,6 +173,7 @@ static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase bas
     stem->length = FR_GET(length) * base.scale * (is_relative ? base.parent_length : 1);
     stem->length *= base.stretch;
     is_relative = params->radius_mode == FR_SIZE_OF_PARENT && base.has_parent;
+    stem->radius_unit = base.scale * (is_relative ? base.parent_radius : 1);
     stem->radius = FR_GET(radius) * base.scale * (is_relative ? base.parent_radius : 1);
     stem->taper = FR_GET(taper);
     stem->min_radius = FR_GET(min_radius);
@@ -203,6 +213,7 @@ FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrSte
     const FrStemParams *params = prepared->params;
     FrStem stem = {
         .prepared = prepared,
+        .evaluator = evaluator,
         .scale = base.scale,
         .key = evaluator->vars.key,
         .step = base.step,
@@ -238,19 +249,27 @@ FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrSte
 
 double fr_stem_radius(const FrStem *stem, double at) {
     const FrStemParams *params = stem->prepared->params;
+    double thick = fr_is_along(stem, FR_ALONG_RADIUS)
+                       ? fr_along_at(stem, FR_ALONG_RADIUS, at) * stem->radius_unit
+                       : stem->radius;
     double radius;
     if (params->course == FR_COURSE_STEPS) {
-        radius = stem->radius * fmin(pow(stem->step_scale, at * stem->internodes), 1e6);
+        radius = thick * fmin(pow(stem->step_scale, at * stem->internodes), 1e6);
     } else if (params->profile != NULL) {
-        radius = stem->radius * fr_curve_eval(params->profile, at * stem->whole);
+        radius = thick * fr_curve_eval(params->profile, at * stem->whole);
     } else {
-        radius = stem->radius * (1 - stem->taper * at * stem->whole);
+        radius = thick * (1 - stem->taper * at * stem->whole);
     }
     if (stem->flare > 0 && at * stem->whole < params->flare_height) {
         double above = 1 - at * stem->whole / params->flare_height;
         radius += stem->radius * stem->flare * above * above * above;
     }
     return fmax(radius, stem->min_radius);
+}
+
+double fr_stem_flatness(const FrStem *stem, double at) {
+    return fr_is_along(stem, FR_ALONG_FLATNESS) ? fr_along_at(stem, FR_ALONG_FLATNESS, at)
+                                                : stem->flatness;
 }
 
 // The stretch between two places that bend the stem.

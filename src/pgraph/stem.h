@@ -38,9 +38,11 @@ typedef struct FrLimb {
 /// One stem, measured.
 typedef struct FrStem {
     const FrPrepared *prepared;
+    FrEvaluator *evaluator; ///< has the instance's variables, for what differs along the stem
     uint32_t internodes;
     double length; ///< m
-    double radius; ///< m, at the base
+    double radius; ///< m, at the base, without flare
+    double radius_unit; ///< m of radius 1
     double taper, min_radius, flatness, flare;
     double whole; ///< part of the stem that is there; less than 1 where it is broken off
     double curvature, twist, gnarl, gnarl_frequency; ///< radians; gnarls over the length
@@ -65,6 +67,8 @@ FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrSte
 void fr_stem_clear(FrStem *stem);
 /// Radius at `at`, 0 at the base to 1 at the tip, m.
 double fr_stem_radius(const FrStem *stem, double at);
+/// Thickness along y over that along x at `at`.
+double fr_stem_flatness(const FrStem *stem, double at);
 /// The one limb of a stem that does not fork.
 FrLimb fr_stem_whole(const FrStem *stem);
 /// Limb k of a stem; `whole` is fr_stem_whole() of it.

@@ -5,6 +5,7 @@
 #include "pgraph/stem.h"
 
 #include "frond/noise.h"
+#include "pgraph/along.h"
 #include "plant/frames.h"
 
 #include <cglm/struct.h>
@@ -19,8 +20,54 @@ typedef struct Walk {
     double gnarl_x, gnarl_y;
 } Walk;
 
-static double bend_up_to(const FrStem *stem, double at) {
+// The bend of a stretch where the curvature differs along the stem.
+static double bend_between(const FrStem *stem, double from, double to) {
+    const FrCurve *curve = ((const FrStemParams *)stem->prepared->params)->curvature_curve;
+    double stretch = (to - from) * stem->whole;
+    if (curve != NULL && stretch > 0) {
+        stretch = fr_curve_integral(curve, to * stem->whole) -
+                  fr_curve_integral(curve, from * stem->whole);
+    }
+    return fr_along_mean(stem, FR_ALONG_CURVATURE, from, to) * stretch;
+}
+
+static double twist_between(const FrStem *stem, double from, double to) {
+    return fr_is_along(stem, FR_ALONG_TWIST)
+               ? fr_along_mean(stem, FR_ALONG_TWIST, from, to) * stem->whole * (to - from)
+               : stem->twist * (to - from);
+}
+
+static double strength(const FrStem *stem, FrAlong which, double value, double from, double to) {
+    return fr_is_along(stem, which) ? fr_along_mean(stem, which, from, to) : value;
+}
+
+static FrTropism tropism_between(const FrStem *stem, double from, double to) {
+    FrTropism whole = stem->tropism;
+    if (stem->prepared->along == 0) {
+        return whole;
+    }
+    return (FrTropism){
+        .up = strength(stem, FR_ALONG_PHOTOTROPISM, whole.up, from, to),
+        .down = strength(stem, FR_ALONG_GRAVITROPISM, whole.down, from, to),
+        .flat = strength(stem, FR_ALONG_PLAGIOTROPISM, whole.flat, from, to),
+    };
+}
+
+static bool has_tropism(const FrStem *stem) {
+    return fr_tropism_acts(stem->tropism) || fr_is_along(stem, FR_ALONG_PHOTOTROPISM) ||
+           fr_is_along(stem, FR_ALONG_GRAVITROPISM) || fr_is_along(stem, FR_ALONG_PLAGIOTROPISM);
+}
+
+static bool has_gnarl(const FrStem *stem) {
+    return stem->gnarl > 0 || fr_is_along(stem, FR_ALONG_GNARL);
+}
+
+// How far the stem is bent up to `at`, beyond where the walk is.
+static double bend_up_to(const FrStem *stem, const Walk *walk, double at) {
     const FrStemParams *params = stem->prepared->params;
+    if (fr_is_along(stem, FR_ALONG_CURVATURE)) {
+        return walk->bend + bend_between(stem, walk->at, at);
+    }
     if (params->curvature_curve == NULL) {
         return stem->curvature * at * stem->whole;
     }
@@ -33,22 +80,24 @@ static double bend_up_to(const FrStem *stem, double at) {
 static double gnarl_at(const FrStem *stem, FrKey limb, uint64_t side, double at) {
     FrKey key = fr_key_child(fr_key_child(limb, FR_STEM_gnarl), side);
     double x = at * stem->gnarl_frequency;
-    return stem->gnarl * (1.4 * fr_noise1(key, x) + 0.6 * fr_noise1(~key, 2 * x));
+    double gnarl =
+        fr_is_along(stem, FR_ALONG_GNARL) ? fr_along_at(stem, FR_ALONG_GNARL, at) : stem->gnarl;
+    return gnarl * (1.4 * fr_noise1(key, x) + 0.6 * fr_noise1(~key, 2 * x));
 }
 
 // The turn of a grown stem from where the walk is to `at`, fields not counted, in its own frame.
 static versors walk_to(const FrStem *stem, FrKey key, Walk *walk, double at, double zigzag_x,
                        double zigzag_y) {
-    double bend = bend_up_to(stem, at);
+    double bend = bend_up_to(stem, walk, at);
     double x = walk->bend - bend + zigzag_x, y = zigzag_y;
-    if (stem->gnarl > 0) {
+    if (has_gnarl(stem)) {
         double gnarl_x = gnarl_at(stem, key, 0, at), gnarl_y = gnarl_at(stem, key, 1, at);
         x += gnarl_x - walk->gnarl_x;
         y += gnarl_y - walk->gnarl_y;
         walk->gnarl_x = gnarl_x;
         walk->gnarl_y = gnarl_y;
     }
-    double twist = stem->twist * (at - walk->at);
+    double twist = twist_between(stem, walk->at, at);
     walk->bend = bend;
     walk->at = at;
     versors turn = identity;
@@ -87,17 +136,18 @@ static versors frame_before(const Growth *growth) {
     return growth->before != FR_NONE ? growth->plant->nodes.frame[growth->before] : identity;
 }
 
-// Adds to `turn` what the fields turn the stem by over `step`, from the middle of the last
-// internode.
-static versors with_fields(const Growth *growth, versors turn, double step) {
+// Adds to `turn` what the fields turn the stem by over `step` up to `at`, from the middle of the
+// last internode.
+static versors with_fields(const Growth *growth, versors turn, double at, double step) {
     const FrStem *stem = growth->stem;
+    FrTropism tropism = tropism_between(stem, at - step, at);
     const FrNodes *nodes = &growth->plant->nodes;
     versors parent = frame_before(growth);
     versors frame = fr_frame_step(parent, turn);
     if (!stem->is_in_field) {
-        return turned_further(parent, turn, fr_tropism_turn(stem->tropism, frame, step));
+        return turned_further(parent, turn, fr_tropism_turn(tropism, frame, step));
     }
-    FrDraw draw = {.tropism = stem->tropism, .length = stem->length, .finest = stem->step};
+    FrDraw draw = {.tropism = tropism, .length = stem->length, .finest = stem->step};
     uint32_t before = growth->before;
     vec3s from = growth->is_base ? fr_plant_axis_origin(growth->plant, growth->axis)
                                  : fr_advanced(nodes->position[before], nodes->frame[before],
@@ -117,7 +167,7 @@ static versors deflected(const Growth *growth, versors turn, double length, doub
 
 // Writes the next node of a growth.
 static void write_node(Growth *growth, uint32_t node, versors rotation, double length,
-                       double radius) {
+                       double radius, double flatness) {
     FrNodes *nodes = &growth->plant->nodes;
     FrAxes *axes = &growth->plant->axes;
     uint32_t axis = growth->axis;
@@ -126,7 +176,7 @@ static void write_node(Growth *growth, uint32_t node, versors rotation, double l
     nodes->rotation[node] = rotation;
     nodes->length[node] = (float)length;
     nodes->radius[node] = (float)radius;
-    nodes->flatness[node] = (float)growth->stem->flatness;
+    nodes->flatness[node] = (float)flatness;
     if (axes->first[axis] == FR_NONE) {
         axes->first[axis] = node;
     } else {
@@ -141,7 +191,8 @@ static void write_node(Growth *growth, uint32_t node, versors rotation, double l
 // Whether every internode but the first turns by the same, fields not counted.
 static bool is_steady(const FrStem *stem) {
     const FrStemParams *params = stem->prepared->params;
-    return stem->gaps == 0 && stem->gnarl <= 0 && params->curvature_curve == NULL;
+    return stem->gaps == 0 && !has_gnarl(stem) && params->curvature_curve == NULL &&
+           !fr_is_along(stem, FR_ALONG_CURVATURE) && !fr_is_along(stem, FR_ALONG_TWIST);
 }
 
 // Where the walk along a limb begins: in the middle of the internode before it.
@@ -151,9 +202,10 @@ static Walk walk_of(const FrStem *stem, const FrLimb *limb) {
         return walk;
     }
     const FrLimb *before = &stem->limbs[limb->before];
-    walk.at = before->end - 0.5 * (before->end - before->start) / before->internodes;
-    walk.bend = bend_up_to(stem, walk.at);
-    if (stem->gnarl > 0) {
+    double at = before->end - 0.5 * (before->end - before->start) / before->internodes;
+    walk.bend = bend_up_to(stem, &walk, at);
+    walk.at = at;
+    if (has_gnarl(stem)) {
         walk.gnarl_x = gnarl_at(stem, limb->key, 0, walk.at);
         walk.gnarl_y = gnarl_at(stem, limb->key, 1, walk.at);
     }
@@ -183,7 +235,7 @@ static versors grow_evenly(Growth *growth, uint32_t first, versors start) {
     const FrLimb *limb = growth->limb;
     Walk walk = walk_of(stem, limb);
     double end = limb->start;
-    bool steady = is_steady(stem), has_fields = fr_tropism_acts(stem->tropism) || stem->is_in_field;
+    bool steady = is_steady(stem), has_fields = has_tropism(stem) || stem->is_in_field;
     versors turn = identity;
     for (uint32_t k = 0; k < limb->internodes; k++) {
         double begin = end, aside_x, aside_y;
@@ -197,17 +249,19 @@ static versors grow_evenly(Growth *growth, uint32_t first, versors start) {
         walk.at = middle;
         versors own = growth->is_base ? fr_frame_step(start, turn) : turn;
         if (has_fields) {
-            own = with_fields(growth, own, step);
+            own = with_fields(growth, own, middle, step);
         }
         if (stem->is_in_field) {
             own = deflected(growth, own, length, radius);
         }
-        write_node(growth, first + k, own, length, radius);
+        write_node(growth, first + k, own, length, radius, fr_stem_flatness(stem, end));
     }
     double step = 1 - walk.at;
-    walk.bend = bend_up_to(stem, walk.at);
+    if (steady) {
+        walk.bend = bend_up_to(stem, &walk, walk.at);
+    }
     turn = walk_to(stem, limb->key, &walk, 1, 0, 0);
-    return has_fields ? with_fields(growth, turn, step) : turn;
+    return has_fields ? with_fields(growth, turn, 1, step) : turn;
 }
 
 static versors grow_steps(Growth *growth, uint32_t first, versors start) {
@@ -216,7 +270,8 @@ static versors grow_steps(Growth *growth, uint32_t first, versors start) {
     for (uint32_t k = 0; k < stem->internodes; k++) {
         versors turn = k > 0 ? stem->step_turn : fr_frame_step(start, stem->step_chord);
         write_node(growth, first + k, turn, length,
-                   fr_stem_radius(stem, fr_stem_node_end(stem, k)));
+                   fr_stem_radius(stem, fr_stem_node_end(stem, k)),
+                   fr_stem_flatness(stem, fr_stem_node_end(stem, k)));
         length = fmin(length * stem->step_scale, 1e6);
     }
     // From the chord's frame back to that of the last cross-section, which has turned once more.
@@ -229,7 +284,7 @@ static versors grow_path(Growth *growth, uint32_t first, versors start) {
     const FrStem *stem = growth->stem;
     const vec3s *points = (const vec3s *)(const void *)stem->prepared->path->data;
     versors frame = identity; // of the internode, in the stem's own coordinates
-    double twist = stem->twist / stem->internodes;
+    double each = 1.0 / stem->internodes;
     for (uint32_t k = 0; k < stem->internodes; k++) {
         vec3s chord = glms_vec3_sub(points[k + 1], points[k]);
         float length = glms_vec3_norm(chord);
@@ -240,12 +295,14 @@ static versors grow_path(Growth *growth, uint32_t first, versors start) {
             vec3s ahead = fr_turned(back, glms_vec3_divs(chord, length));
             turn = fr_rotation_between((vec3s){{0, 0, 1}}, ahead);
         }
+        double twist = twist_between(stem, k * each, (k + 1) * each);
         if (twist != 0) {
             turn = fr_frame_step(turn, fr_rotation_about((vec3s){{0, 0, 1}}, (float)twist));
         }
         frame = fr_frame_step(frame, turn);
         write_node(growth, first + k, k > 0 ? turn : fr_frame_step(start, turn),
-                   (double)length * stem->scale, fr_stem_radius(stem, fr_stem_node_end(stem, k)));
+                   (double)length * stem->scale, fr_stem_radius(stem, fr_stem_node_end(stem, k)),
+                   fr_stem_flatness(stem, fr_stem_node_end(stem, k)));
     }
     return identity;
 }

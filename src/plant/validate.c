@@ -145,7 +145,11 @@ static void check_tables(const FrPlant *plant, FrFinding *finding) {
         if (shape->kind == FR_SHAPE_BLADE &&
             (!is_index(blade->outline, plant->profiles->len) ||
              !is_index(blade->along_curve, plant->profiles->len) ||
-             !is_index(blade->across_curve, plant->profiles->len))) {
+             !is_index(blade->across_curve, plant->profiles->len) ||
+             blade->across_along > plant->profiles->len ||
+             blade->fold_along > plant->profiles->len ||
+             blade->twist_along > plant->profiles->len ||
+             blade->wave_along > plant->profiles->len)) {
             found(finding, "shape %u has an outline or curve out of range", i);
         } else if (shape->kind == FR_SHAPE_REVOLUTION && shape->outline >= plant->profiles->len) {
             found(finding, "shape %u has outline %u of %u", i, shape->outline,

@@ -4,6 +4,7 @@
 //
 // The midrib is m(s) = ∫ (sin θ, cos θ) in the plane of y and z with θ(s) = θ0 + ∫ κ; across it
 // runs a curve of the angle φ(t) = fold + ∫ κ from the midrib to each margin. Both keep arc length.
+// From base to tip φ may differ: its fold and its curvature are then multiplied at each s.
 // A curve over either curvature spreads the whole turn by its values: κ = turn · y(x) / ∫ |y|.
 #include "skin/blade.h"
 
@@ -69,15 +70,51 @@ static void bent_at(const FrBent *bent, double at, double *x, double *y, double 
     *y = bent->y[low] + part / FINE * sin(middle);
 }
 
+static double factor_at(const FrProfile *curve, double along) {
+    return curve != NULL ? finite_or_zero(curve_at(curve, along)) : 1.0;
+}
+
+// The line across at `along`, `part` of the way from midrib to margin.
+static void across_at(const FrBladeForm *form, double along, double part, double *out, double *up) {
+    double phi, fold = form->blade->fold;
+    if (form->across_along == NULL) {
+        bent_at(&form->across, part, out, up, &phi);
+    } else { // the same turns, each multiplied
+        double factor = factor_at(form->across_along, along);
+        *out = *up = 0.0;
+        for (int i = 0; i < FINE && part * FINE > i; i++) {
+            double step = fmin(part * FINE - i, 1.0);
+            double turn = step * (form->across.angle[i + 1] - form->across.angle[i]);
+            phi = fold + factor * (form->across.angle[i] - fold + 0.5 * turn);
+            *out += step / FINE * cos(phi);
+            *up += step / FINE * sin(phi);
+        }
+    }
+    if (form->fold_along != NULL) {
+        double turn = fold * (factor_at(form->fold_along, along) - 1.0), x = *out;
+        *out = cos(turn) * x - sin(turn) * *up;
+        *up = sin(turn) * x + cos(turn) * *up;
+    }
+}
+
+static double twist_at(const FrBladeForm *form, double along) {
+    if (form->blade->twist_along == 0) {
+        return form->blade->twist * along;
+    }
+    int low = (int)fmin(fmax(along * FINE, 0.0), FINE - 1);
+    return form->twist[low] + (along * FINE - low) * (form->twist[low + 1] - form->twist[low]);
+}
+
 void fr_blade_point(const FrBladeForm *form, double along, double aside, double point[3]) {
     const FrBlade *blade = form->blade;
-    double forth, lift, theta, out, up, phi;
+    double forth, lift, theta, out, up;
     bent_at(&form->along, along, &forth, &lift, &theta);
-    bent_at(&form->across, fabs(aside) / form->half, &out, &up, &phi);
+    across_at(form, along, fabs(aside) / form->half, &out, &up);
     double x = copysign(out * form->half, -aside), y = up * form->half;
     double part = aside / form->half, phase = aside < 0.0 ? 0.35 : 0.0;
-    y += blade->wave * form->width * part * part * sin(2.0 * G_PI * (blade->waves * along + phase));
-    double cosine = cos(blade->twist * along), sine = sin(blade->twist * along);
+    double wave = blade->wave * factor_at(form->wave_along, along);
+    y += wave * form->width * part * part * sin(2.0 * G_PI * (blade->waves * along + phase));
+    double twist = twist_at(form, along), cosine = cos(twist), sine = sin(twist);
     double turned_x = cosine * x - sine * y, turned_y = sine * x + cosine * y;
     point[0] = form->base.x + turned_x;
     point[1] = form->base.y + blade->length * lift + turned_y * cos(theta);
@@ -204,6 +241,25 @@ static void lay_petiole(FrShapeMesh *mesh, const FrBlade *blade, const FrBent *b
     }
 }
 
+static const FrProfile *factor_of(const FrPlant *plant, uint32_t along) {
+    const FrProfile *curve = along > 0 && along <= plant->profiles->len
+                                 ? &g_array_index(plant->profiles, FrProfile, along - 1)
+                                 : NULL;
+    return curve != NULL && curve->count > 0 ? curve : NULL;
+}
+
+static void vary_along(FrBladeForm *form, const FrPlant *plant) {
+    const FrBlade *blade = form->blade;
+    form->across_along = factor_of(plant, blade->across_along);
+    form->fold_along = factor_of(plant, blade->fold_along);
+    form->wave_along = factor_of(plant, blade->wave_along);
+    const FrProfile *twist = factor_of(plant, blade->twist_along);
+    for (int i = 0; i < FINE && blade->twist_along != 0; i++) {
+        form->twist[i + 1] =
+            form->twist[i] + blade->twist * factor_at(twist, (i + 0.5) / FINE) / FINE;
+    }
+}
+
 bool fr_blade_form_init(FrBladeForm *form, const FrPlant *plant, const FrBlade *blade) {
     *form = (FrBladeForm){.blade = blade, .width = blade->width, .half = 0.5 * blade->width};
     double start = 0.0;
@@ -219,6 +275,7 @@ bool fr_blade_form_init(FrBladeForm *form, const FrPlant *plant, const FrBlade *
     }
     bend(&form->along, plant, start, blade->curvature_along, blade->along_curve);
     bend(&form->across, plant, blade->fold, blade->curvature_across, blade->across_curve);
+    vary_along(form, plant);
     return true;
 }
 

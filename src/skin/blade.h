@@ -12,11 +12,13 @@ typedef struct FrBent {
 
 typedef struct FrBladeForm {
     const FrBlade *blade;
-    double width, half; ///< m
-    FrBent petiole;     ///< of length 1; set if there is one
-    FrBent along;       ///< of length 1
-    FrBent across;      ///< of half a width, length 1
-    vec3s base;         ///< end of the petiole
+    double width, half;                                      ///< m
+    FrBent petiole;                                          ///< of length 1; set if there is one
+    FrBent along;                                            ///< of length 1
+    FrBent across;                                           ///< of half a width, length 1
+    vec3s base;                                              ///< end of the petiole
+    const FrProfile *across_along, *fold_along, *wave_along; ///< NULL: the same all along
+    double twist[FR_BLADE_FINE + 1];                         ///< up to even steps
 } FrBladeForm;
 
 /// False if the blade has no length or width: then it is but a petiole.
