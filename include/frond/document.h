@@ -63,10 +63,12 @@ typedef struct FrPlantDef {
     uint64_t seed;
     bool has_seed; ///< it was given; else an L-system keeps that of its text
     FrPlantKind kind;
-    GPtrArray *sliders; ///< FrSlider *, in the order of the document
-    FrPgraph *pgraph;   ///< for FR_PLANT_PGRAPH, else empty
-    FrLmodel *lsystem;  ///< for FR_PLANT_LSYSTEM, else NULL
-    FrVary *vary;       ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
+    double age, time;        ///< years of the plant when its clock shows 0; what it shows
+    FrNumber season, health; ///< see FrPgraphState; of `time` and `age`
+    GPtrArray *sliders;      ///< FrSlider *, in the order of the document
+    FrPgraph *pgraph;        ///< for FR_PLANT_PGRAPH, else empty
+    FrLmodel *lsystem;       ///< for FR_PLANT_LSYSTEM, else NULL
+    FrVary *vary; ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
     FrSpan span;
 } FrPlantDef;
 
@@ -90,7 +92,9 @@ typedef struct FrPlantDef {
     X(REAL, turbidity, "3", 1, 10, "", "", "haze: 2 clear mountain air, 10 haze")                  \
     X(SWITCH, ground, "yes", 0, 1, "", "", "a ground to stand on")                                 \
     X(COLOUR, ground_colour, "#6b6a4e", 0, 1, "", "", "colour of the ground")                      \
-    X(REAL, exposure, "0", -20, 20, "", "", "stops of exposure added to the automatic one")
+    X(REAL, exposure, "0", -20, 20, "", "", "stops of exposure added to the automatic one")        \
+    X(REAL, frame_time, "0.1", 0.000001, 1000000, "a", "",                                         \
+      "years from picture to picture of a sequence (render --frames)")
 
 /// A view. Angles and distance count from the middle of what is looked at.
 #define FR_VIEW_PARAMS(X)                                                                          \
@@ -128,10 +132,11 @@ FR_API const char *fr_document_name(const FrDocument *document);
 FR_API char *fr_document_title(const FrDocument *document);
 /// The place of the root element's name, for what is wrong with the document as a whole.
 FR_API FrSpan fr_document_span(const FrDocument *document);
-/// A plant's definition once more, with another seed; to be freed with fr_pgraph_free(). The
-/// document must have been read without errors.
+/// A plant's definition once more, with another seed and, unless it is NAN, another time of its
+/// clock in years; to be freed with fr_pgraph_free(). The document must have been read without
+/// errors.
 FR_API FrPgraph *fr_document_reseed(const FrDocument *document, const FrPlantDef *plant,
-                                    uint64_t seed);
+                                    uint64_t seed, double time);
 FR_API const char *fr_document_folder(const FrDocument *document);
 /// Arrays of FrPlantDef *, FrPlace *, FrViewParams * and FrMaterial *, owned by the document.
 FR_API const GPtrArray *fr_document_plants(const FrDocument *document);

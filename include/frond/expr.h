@@ -26,9 +26,13 @@
     X(s, "position along this component itself, 0 to 1")                                           \
     X(v, "the value before the function is applied: from + t (to - from)")                         \
     X(height, "height above the ground, m")                                                        \
-    X(age, "age, years")                                                                           \
-    X(time, "time of the animation, seconds")                                                      \
+    X(age, "age of the component by its own clock, years")                                         \
+    X(time, "time of the plant's clock, years")                                                    \
     X(season, "season, 0 to 1 from spring to winter")                                              \
+    X(health, "health of the plant, 1 is well")                                                    \
+    X(px, "place in the plant along its x axis, m")                                                \
+    X(py, "place in the plant along its y axis, m")                                                \
+    X(pz, "place in the plant along its z axis, m")                                                \
     X(light, "light here relative to full light, 0 to 1")
 
 typedef enum FrVar {

@@ -52,7 +52,9 @@ typedef enum FrTextureKind {
     X(POINTS, outline, "", 0, 0, "", "",                                                           \
       "half outline of the leaf in the picture: along 0-1, half width 0-0.5; empty: elliptic")     \
     X(INTEGER, teeth, "0", 0, 200, "", "", "teeth on each side of the picture's margin")           \
-    X(REAL, tooth_depth, "0.03", 0, 0.5, "", "", "depth of the teeth, of the leaf's width")
+    X(REAL, tooth_depth, "0.03", 0, 0.5, "", "", "depth of the teeth, of the leaf's width")        \
+    X(TEXT, ramp, "", 0, 0, "", "",                                                                \
+      "colours over the season instead of colour: 0 #7fa845, 0.8 #d08a1e")
 
 typedef struct FrMaterialParams {
     FR_MATERIAL_PARAMS(FR_PARAM_FIELD)
@@ -80,6 +82,16 @@ FR_API FrMaterial *fr_material_ref(FrMaterial *material);
 FR_API void fr_material_unref(FrMaterial *material);
 FR_API const char *fr_material_name(const FrMaterial *material);
 FR_API const FrMaterialParams *fr_material_params(const FrMaterial *material);
+
+/// Colours of a ramp are taken in so many steps.
+enum { FR_RAMP_STEPS = 16 };
+/// Whether its colour depends on the season.
+FR_API bool fr_material_has_ramp(const FrMaterial *material);
+/// The material with its colour at step 0 to FR_RAMP_STEPS of its ramp; made on first use, lives as
+/// long as the material. The material itself without a ramp.
+FR_API FrMaterial *fr_material_at(FrMaterial *material, uint32_t step);
+/// False and a diagnostic if the text of a ramp is wrong.
+FR_API bool fr_material_check_ramp(const char *text, FrSpan span, FrDiags *diags);
 
 /// What multiplies the colour picture, sRGB: `colour`; but white for a picture made by the program,
 /// which holds `colour` already.

@@ -11,7 +11,8 @@
 ///     = 3 + 2*i          the value itself as an expression (short for 0..1 : 3 + 2*i)
 ///     45 | parent crown  times the curve at the place on the parent
 ///     45 ~ 5 | depth 0,1 3,0.5 | season fall      … and by more: any variable and a curve over it
-///     keys 0,10 5,80     10 at time 0, 80 at time 5; `~` and `|` may follow
+///     keys 0,10 5,80     10 at age 0, 80 at age 5; `~` and `|` may follow
+///     list 10 20 40      the values in turn: number i mod 3; `~` and `|` may follow
 ///
 /// The value is `(v·C₁·C₂… + variance·r)·S`, with `v = from + f(t)·(to − from)`, the curves C over
 /// variables of the instance, S over its own length (`self`), and r uniform in [−1, 1) and keyed by

@@ -43,8 +43,18 @@ typedef enum FrLinkKind {
 
 typedef struct FrPgraph FrPgraph;
 
+/// What is the same for the whole plant and seen by all its expressions.
+typedef struct FrPgraphState {
+    double age;    ///< years of the plant when its clock shows 0, ≥ 0
+    double time;   ///< what the clock shows, years
+    double season; ///< 0 to 1 from spring to winter
+    double health; ///< 0 to 1
+} FrPgraphState;
+
 FR_API FrPgraph *fr_pgraph_new(const char *name, uint64_t seed);
 FR_API void fr_pgraph_free(FrPgraph *graph);
+/// A new graph has age, time and season 0 and health 1.
+FR_API void fr_pgraph_set_state(FrPgraph *graph, const FrPgraphState *state);
 /// Adds a prototype with default parameters and returns its index. `id` must be new: else FR_NONE
 /// and a diagnostic.
 FR_API uint32_t fr_pgraph_add(FrPgraph *graph, FrComponentKind kind, const char *id, FrSpan span,

@@ -44,6 +44,8 @@ typedef struct FrScene {
     double light_seconds; ///< of all steps
     FrLightStats light;   ///< of the last step
     uint64_t seed;
+    bool is_framed; ///< views show the box below, not what there is: sequences
+    double frame_min[3], frame_max[3];
 } FrScene;
 
 /// Builds every plant that stands somewhere; a document without places shows its first plant at
@@ -53,17 +55,20 @@ typedef struct FrScene {
 /// most FrLimits.bytes. The document must outlive the scene.
 FR_API FR_MUST_USE FrStatus fr_scene_build(const FrDocument *document, int64_t seed,
                                            const FrContext *context, FrScene **scene);
-/// Builds a plant that is no variation, alone; `seed` < 0 is its own. `counts` (may be NULL) is
-/// that of fr_pgraph_build() for a p-graph and empty for others.
+/// Builds a plant that is no variation, alone; `seed` < 0 is its own, and so is a `time` that is
+/// NAN. `counts` (may be NULL) is that of fr_pgraph_build() for a p-graph and empty for others.
 FR_API FR_MUST_USE FrStatus fr_scene_grow(const FrDocument *document, const FrPlantDef *definition,
-                                          int64_t seed, const FrContext *context,
+                                          int64_t seed, double time, const FrContext *context,
                                           FrScenePlant *plant, FrPgraphCounts *counts);
+/// The same with the clocks of all plants at `time`, in years; NAN: as the document says.
+FR_API FR_MUST_USE FrStatus fr_scene_build_at(const FrDocument *document, int64_t seed, double time,
+                                              const FrContext *context, FrScene **scene);
 /// `count` instances of a plant side by side, of seeds `seed` (< 0: the plant's), `seed` + 1, …; a
 /// plant that is no variation is varied by the default settings. The base keeps its own seed. Sun
 /// and ground are the document's; views, made for the document's own scene, are left out.
 FR_API FR_MUST_USE FrStatus fr_scene_collect(const FrDocument *document,
                                              const FrPlantDef *definition, int64_t seed,
-                                             uint32_t count, const FrContext *context,
+                                             double time, uint32_t count, const FrContext *context,
                                              FrScene **scene);
 /// A scene of one plant of a collection alone, at the origin, with its seed. It borrows the plant.
 FR_API FrScene *fr_scene_single(const FrScene *scene, uint32_t plant);

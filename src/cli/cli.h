@@ -28,9 +28,12 @@ typedef struct CliOptions {
     GPtrArray *outputs; ///< char *, of -o
     GPtrArray *sets;    ///< char *, "path=value"
     int64_t seed;       ///< < 0: as the document says
-    int threads;        ///< 0: one per processor
-    int64_t steps;      ///< < 0: as the L-system says
-    int64_t count;      ///< instances of a collection; 0: the default
+    double time;        ///< years, of all plants' clocks; NAN: as the document says
+    bool has_frames;
+    int64_t first_frame, last_frame;
+    int threads;   ///< 0: one per processor
+    int64_t steps; ///< < 0: as the L-system says
+    int64_t count; ///< instances of a collection; 0: the default
     int64_t lod;
     int64_t samples, width, height; ///< 0: the default
     FrLeaves leaves;

@@ -1,6 +1,7 @@
 /// Command-line options: one row each says what it is called, which verbs take it and what it does.
 #include "cli/cli.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -150,6 +151,32 @@ static bool replace_text(char **text, const char *value) {
     return true;
 }
 
+static bool take_time(CliOptions *options, const char *value) {
+    char *end;
+    options->time = g_ascii_strtod(value, &end);
+    bool is_right = end != value && *end == '\0' && options->time >= 0 && options->time <= 1e6;
+    if (!is_right) {
+        cli_message("--time takes years from 0 to 1000000, not '%s'", value);
+    }
+    return is_right;
+}
+
+static bool take_frames(CliOptions *options, const char *value) {
+    enum { LAST = 999999 };
+    const char *dots = strstr(value, "..");
+    char *first = g_strndup(value, dots != NULL ? (gsize)(dots - value) : strlen(value));
+    const char *last = dots != NULL ? dots + 2 : first;
+    bool is_right =
+        g_ascii_string_to_signed(first, 10, 0, LAST, &options->first_frame, NULL) &&
+        g_ascii_string_to_signed(last, 10, options->first_frame, LAST, &options->last_frame, NULL);
+    if (!is_right) {
+        cli_message("--frames takes FIRST..LAST, each from 0 to %d, not '%s'", LAST, value);
+    }
+    options->has_frames = is_right;
+    g_free(first);
+    return is_right;
+}
+
 static bool take_steps(CliOptions *options, const char *value) {
     return take_integer("steps", value, 0, 1000000000, &options->steps);
 }
@@ -225,6 +252,9 @@ static const OptionRow rows[] = {
      take_leaves},
     {"nurbs", 0, "NAME=VALUE", CLI_BUILD, "in .igs and .stp: like circle=nine, join=smooth",
      take_nurbs},
+    {"time", 0, "YEARS", CLI_BUILD | CLI_RENDER | CLI_INFO | CLI_VARY,
+     "what the clocks of all plants show", take_time},
+    {"frames", 0, "A..B", CLI_RENDER, "a picture for each frame of a growth sequence", take_frames},
     {"steps", 0, "N", READING, "steps of an L-system", take_steps},
     {"view", 0, "FILE", READING, "the view (.v) of an L-system", take_view},
     {"print", 0, "WHAT", CLI_DERIVE, "string (default), count, or steps: counts of each",
@@ -253,6 +283,7 @@ CliOptions cli_options_new(void) {
                         .outputs = g_ptr_array_new_with_free_func(g_free),
                         .sets = g_ptr_array_new_with_free_func(g_free),
                         .seed = -1,
+                        .time = NAN,
                         .steps = -1,
                         .limits = fr_limits_default(),
                         .nurbs = fr_nurbs_default()};

@@ -1,6 +1,7 @@
 /// frond info: what is in a document or a model.
 #include "cli/cli.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,8 +31,8 @@ static FrStatus grow(const CliSession *session, const FrDocument *document,
     uint32_t wanted = 0; // any address asks for the i-tree
     grown->counts.parent = &wanted;
     FrScenePlant plant;
-    FrStatus status =
-        fr_scene_grow(document, definition, seed, &session->context, &plant, &grown->counts);
+    FrStatus status = fr_scene_grow(document, definition, seed, session->options->time,
+                                    &session->context, &plant, &grown->counts);
     grown->plant = plant.plant;
     grown->modules = plant.modules;
     grown->drawn = plant.drawn;
@@ -179,8 +180,8 @@ static json_t *plant_json(const Grown *grown) {
 static FrStatus describe_varied(CliSession *session, const FrDocument *document,
                                 const FrPlantDef *definition, json_t *plants) {
     FrScene *scene;
-    FrStatus status = fr_scene_collect(document, definition, session->options->seed, 1,
-                                       &session->context, &scene);
+    FrStatus status = fr_scene_collect(document, definition, session->options->seed,
+                                       session->options->time, 1, &session->context, &scene);
     if (status != FR_OK) {
         return status;
     }

@@ -1,6 +1,7 @@
 /// frond render: a picture of a document.
 #include "cli/cli.h"
 
+#include <math.h>
 #include <string.h>
 
 static bool check_output(const CliOptions *options) {
@@ -46,7 +47,7 @@ static bool check_camera(const CliOptions *options, const FrScene *scene) {
     return is_known;
 }
 
-static FrStatus render_and_save(CliSession *session, const FrScene *scene) {
+static FrStatus render_and_save(CliSession *session, const FrScene *scene, const char *path) {
     const CliOptions *options = session->options;
     FrRenderParams params;
     fr_params_init(fr_render_table(), &params);
@@ -62,16 +63,119 @@ static FrStatus render_and_save(CliSession *session, const FrScene *scene) {
     double began = cli_now();
     FrImage *image = NULL;
     FrStatus status = fr_render(scene, &params, &skin, &session->context, &image);
-    session->render_seconds = cli_now() - began;
+    session->render_seconds += cli_now() - began;
     if (status == FR_OK) {
         GBytes *png = fr_image_to_png(image);
         gsize size;
         const void *data = g_bytes_get_data(png, &size);
-        status = cli_session_save(session, g_ptr_array_index(options->outputs, 0), data, size);
+        status = cli_session_save(session, path, data, size);
         g_bytes_unref(png);
         fr_image_unref(image);
     }
     fr_params_clear(fr_render_table(), &params);
+    return status;
+}
+
+// ---- sequences --------------------------------------------------------------------------------
+
+/// grow.png, 7 → grow-0007.png. Free with g_free().
+static char *frame_path(const char *path, int64_t frame) {
+    size_t stem = strlen(path) - strlen(".png");
+    return g_strdup_printf("%.*s-%04" G_GINT64_FORMAT "%s", (int)stem, path, frame, path + stem);
+}
+
+static FrStatus build_frame(CliSession *session, const FrDocument *document, int64_t frame,
+                            FrScene **scene) {
+    const CliOptions *options = session->options;
+    double began = cli_now();
+    double start = isnan(options->time) ? 0 : options->time;
+    double time = start + (double)frame * fr_document_scene(document)->frame_time;
+    FrStatus status = fr_scene_build_at(document, options->seed, time, &session->context, scene);
+    session->build_seconds += cli_now() - began;
+    return status;
+}
+
+/// All pictures show what the last and the first hold, so that a plant is seen to grow.
+static FrStatus frame_all(CliSession *session, const FrDocument *document, double min[3],
+                          double max[3]) {
+    const CliOptions *options = session->options;
+    const int64_t ends[2] = {options->last_frame, options->first_frame};
+    for (int k = 0; k < 2; k++) {
+        FrScene *scene;
+        FrStatus status = build_frame(session, document, ends[k], &scene);
+        if (status != FR_OK) {
+            return status;
+        }
+        double low[3], high[3];
+        fr_scene_bounds(scene, low, high);
+        fr_scene_free(scene);
+        for (int r = 0; r < 3; r++) {
+            bool is_first = k == 0 || !(min[r] <= max[r]);
+            min[r] = is_first ? low[r] : fmin(min[r], low[r]);
+            max[r] = is_first ? high[r] : fmax(max[r], high[r]);
+        }
+    }
+    return FR_OK;
+}
+
+static FrStatus render_frames(CliSession *session, const FrDocument *document) {
+    const CliOptions *options = session->options;
+    double min[3], max[3];
+    FrStatus status = frame_all(session, document, min, max);
+    for (int64_t frame = options->first_frame; frame <= options->last_frame && status == FR_OK;
+         frame++) {
+        FrScene *scene;
+        status = build_frame(session, document, frame, &scene);
+        if (status != FR_OK) {
+            break;
+        }
+        scene->is_framed = min[0] <= max[0];
+        memcpy(scene->frame_min, min, sizeof min);
+        memcpy(scene->frame_max, max, sizeof max);
+        char *path = frame_path(g_ptr_array_index(options->outputs, 0), frame);
+        status =
+            check_camera(options, scene) ? render_and_save(session, scene, path) : FR_ERR_USAGE;
+        if (status == FR_OK && frame == options->last_frame && options->stats != NULL) {
+            status = cli_stats_write(session, g_ptr_array_index(options->files, 0), scene, NULL);
+        }
+        g_free(path);
+        fr_scene_free(scene);
+    }
+    return status;
+}
+
+static FrStatus render_sequence(CliSession *session) {
+    const char *path = g_ptr_array_index(session->options->files, 0);
+    if (cli_is_lsystem(path)) {
+        cli_message("--frames is for documents; the steps of an L-system are chosen by --steps");
+        return FR_ERR_USAGE;
+    }
+    FrDocument *document;
+    FrStatus status = cli_session_read(session, path, &document);
+    if (status == FR_OK) {
+        status = render_frames(session, document);
+    }
+    fr_document_free(document);
+    return status;
+}
+
+static FrStatus render_still(CliSession *session) {
+    const CliOptions *options = session->options;
+    const char *path = g_ptr_array_index(options->files, 0);
+    FrDocument *document;
+    FrScene *scene;
+    FrStatus status = cli_session_build(session, path, &document, &scene);
+    if (status != FR_OK) {
+        return status;
+    }
+    status = check_camera(options, scene)
+                 ? render_and_save(session, scene, g_ptr_array_index(options->outputs, 0))
+                 : FR_ERR_USAGE;
+    if (status == FR_OK && options->stats != NULL) {
+        status = cli_stats_write(session, path, scene, NULL);
+    }
+    fr_scene_free(scene);
+    fr_document_free(document);
     return status;
 }
 
@@ -80,22 +184,10 @@ FrStatus cli_render(CliSession *session) {
     if (!check_output(options)) {
         return FR_ERR_USAGE;
     }
-    const char *path = g_ptr_array_index(options->files, 0);
-    FrDocument *document;
-    FrScene *scene;
-    FrStatus status = cli_session_build(session, path, &document, &scene);
-    if (status != FR_OK) {
-        return status;
-    }
-    status = check_camera(options, scene) ? render_and_save(session, scene) : FR_ERR_USAGE;
-    if (status == FR_OK && options->stats != NULL) {
-        status = cli_stats_write(session, path, scene, NULL);
-    }
+    FrStatus status = options->has_frames ? render_sequence(session) : render_still(session);
     if (status == FR_OK && options->is_verbose) {
         cli_message("read %.3f s, build %.3f s, render %.3f s, total %.3f s", session->read_seconds,
                     session->build_seconds, session->render_seconds, cli_now() - session->began);
     }
-    fr_scene_free(scene);
-    fr_document_free(document);
     return status;
 }

@@ -199,7 +199,8 @@ FrStatus cli_vary(CliSession *session) {
         status = options->plant != NULL ? FR_ERR_USAGE : FR_ERR_DOCUMENT;
     } else {
         uint32_t count = options->count > 0 ? (uint32_t)options->count : INSTANCES;
-        status = fr_scene_collect(document, plant, options->seed, count, &session->context, &scene);
+        status = fr_scene_collect(document, plant, options->seed, options->time, count,
+                                  &session->context, &scene);
         session->build_seconds += cli_now() - began;
     }
     if (status == FR_OK) {

@@ -7,6 +7,8 @@ static void free_plant(void *data) {
     FrPlantDef *plant = data;
     fr_pgraph_free(plant->pgraph);
     fr_lmodel_free(plant->lsystem);
+    fr_number_clear(&plant->season);
+    fr_number_clear(&plant->health);
     fr_vary_free(plant->vary);
     g_ptr_array_unref(plant->sliders);
     g_free(plant->id);

@@ -64,7 +64,11 @@ enum { FR_DOCUMENT_VERSION = 1 };
 #define FR_FUNCTION_PARAMS(X)                                                                      \
     X(TEXT, parameters, "", 0, 0, "", "", "names of its parameters, separated by blanks")
 #define FR_PLANT_PARAMS(X)                                                                         \
-    X(INTEGER, seed, "1", 0, 4294967295.0, "", "", "seed of everything random in the plant")
+    X(INTEGER, seed, "1", 0, 4294967295.0, "", "", "seed of everything random in the plant")       \
+    X(REAL, age, "0", 0, 1000000, "a", "", "how old it is when its clock shows 0")                 \
+    X(REAL, time, "0", 0, 1000000, "a", "", "what its clock shows")                                \
+    X(NUMBER, season, "0", 0, 1, "", "", "from spring to winter; may be an expression of time")    \
+    X(NUMBER, health, "1", 0, 1, "", "", "how well it is; may be an expression of time")
 #define FR_DEFINE_PARAMS(X) X(NUMBER, value, "0", -1e30, 1e30, "", "", "its value")
 #define FR_LINK_PARAMS(X)                                                                          \
     X(TEXT, from, "", 0, 0, "", "", "id of the component that makes")                              \

@@ -33,6 +33,10 @@ static void read_material(FrReader *reader, uint32_t node, const char *id) {
     for (int map = 0; map < FR_MAP_COUNT; map++) {
         check_file(reader, node, map_attributes[map], files[map]);
     }
+    FrSpan ramp = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "ramp"));
+    if (!fr_material_check_ramp(params.ramp, ramp, reader->diags)) {
+        fr_read_note(reader, FR_ERR_DOCUMENT);
+    }
     if (g_hash_table_contains(reader->material_ids, id)) {
         fr_read_error(reader, "duplicate-id", fr_read_value_place(reader, node, "id"),
                       "there is a material '%s' already", id);

@@ -1,6 +1,8 @@
 /// `<plant>`: an id, a seed, and one engine's definition within.
 #include "document/reader.h"
 
+#include <math.h>
+
 /// The one engine's definition of a plant.
 static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) {
     static const struct {
@@ -39,22 +41,45 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
     }
 }
 
-static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
+/// Sets what is the same for the whole plant at a time of its clock.
+static void set_state(FrPgraph *graph, const FrPlantDef *plant, double time) {
+    FrVars vars = {0};
+    vars.value[FR_VAR_time] = time;
+    vars.value[FR_VAR_age] = plant->age + time;
+    FrPgraphState state = {
+        .age = plant->age,
+        .time = time,
+        .season = fr_number_eval(&plant->season, &vars, 0, NULL),
+        .health = fr_number_eval(&plant->health, &vars, 0, NULL),
+    };
+    fr_pgraph_set_state(graph, &state);
+}
+
+/// What its attributes say, in which its sliders are known.
+static void read_attributes(FrReader *reader, uint32_t node, FrPlantDef *plant) {
     FrPlantParams params;
     const FrParamTable *table = fr_element(FR_ELEMENT_PLANT).table;
     fr_params_init(table, &params);
     fr_read_attributes(reader, node, FR_ELEMENT_PLANT, &params);
+    plant->seed = (uint64_t)params.seed;
+    plant->age = params.age;
+    plant->time = params.time;
+    plant->season = fr_number_copy(&params.season);
+    plant->health = fr_number_copy(&params.health);
+    fr_params_clear(table, &params);
+}
+
+static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
     FrPlantDef *plant = g_new0(FrPlantDef, 1);
     *plant = (FrPlantDef){.id = id,
-                          .seed = (uint64_t)params.seed,
                           .kind = FR_PLANT_PGRAPH,
                           .span = fr_xml_span(reader->tree, reader->tree->nodes[node].name)};
-    fr_params_clear(table, &params);
-
     FrScope *scope = fr_scope_new_within(reader->document->scope);
     plant->sliders = fr_read_sliders(reader, node, scope);
     reader->scope = scope;
+    read_attributes(reader, node, plant);
     plant->pgraph = fr_pgraph_new(id, plant->seed);
+    set_state(plant->pgraph, plant, plant->time);
     plant->has_seed = fr_xml_attribute(reader->tree, node, "seed") != NULL;
     read_definition(reader, node, plant);
     reader->scope = reader->document->scope;
@@ -71,7 +96,8 @@ static uint32_t find_node(const FrXmlTree *tree, uint32_t begin) {
     return node;
 }
 
-FrPgraph *fr_document_reseed(const FrDocument *document, const FrPlantDef *plant, uint64_t seed) {
+FrPgraph *fr_document_reseed(const FrDocument *document, const FrPlantDef *plant, uint64_t seed,
+                             double time) {
     // Reading a graph changes nothing in the document.
     FrReader reader;
     fr_reader_open(&reader, (FrDocument *)document, NULL);
@@ -86,6 +112,7 @@ FrPgraph *fr_document_reseed(const FrDocument *document, const FrPlantDef *plant
     }
     reader.scope = scope;
     FrPgraph *graph = fr_pgraph_new(plant->id, seed);
+    set_state(graph, plant, isnan(time) ? plant->time : time);
     uint32_t node = find_node(document->tree, plant->span.begin);
     FR_ASSERT(node != FR_NONE);
     uint32_t definition = fr_read_first(&reader, node, FR_ELEMENT_PGRAPH);

@@ -3,6 +3,7 @@
 #include "expr/lexer.h"
 #include "expr/tree.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { MOST_FACTORS = 8 };
@@ -14,7 +15,9 @@ typedef struct Factor {
 
 struct FrFactors {
     gatomicrefcount references;
-    FrCurve *keys;   // over time; NULL
+    FrCurve *keys;   // over age; NULL
+    double *list;    // values in turn; NULL
+    uint32_t listed; // of them
     double constant; // the product of what is the same for all
     uint32_t count;
     Factor of[MOST_FACTORS];
@@ -42,16 +45,22 @@ void fr_factors_unref(FrFactors *factors) {
         fr_curve_unref(factors->of[k].curve);
     }
     fr_curve_unref(factors->keys);
+    g_free(factors->list);
     g_free(factors);
 }
 
 // ---- value ------------------------------------------------------------------------------------
 
 bool fr_factors_key(const FrFactors *factors, const FrVars *vars, double *value) {
+    if (factors->list != NULL) {
+        double turn = fmod(vars->value[FR_VAR_i], factors->listed);
+        *value = factors->list[turn > 0 ? (uint32_t)turn : 0];
+        return true;
+    }
     if (factors->keys == NULL) {
         return false;
     }
-    *value = fr_curve_eval(factors->keys, vars->value[FR_VAR_time]);
+    *value = fr_curve_eval(factors->keys, vars->value[FR_VAR_age]);
     return true;
 }
 
@@ -67,7 +76,7 @@ double fr_factors_product(const FrFactors *factors, const FrVars *vars, bool is_
 }
 
 bool fr_factors_are_fixed(const FrFactors *factors) {
-    return factors->count == 0 && factors->keys == NULL;
+    return factors->count == 0 && factors->keys == NULL && factors->list == NULL;
 }
 
 bool fr_factors_use(const FrFactors *factors, FrVar var) {
@@ -76,16 +85,20 @@ bool fr_factors_use(const FrFactors *factors, FrVar var) {
             return true;
         }
     }
-    return var == FR_VAR_time && factors->keys != NULL;
+    if (var == FR_VAR_i && factors->list != NULL) {
+        return true;
+    }
+    return var == FR_VAR_age && factors->keys != NULL;
 }
 
 FrDigest fr_factors_digest(FrDigest seed, const FrFactors *factors) {
-    uint32_t head[2] = {factors->count, factors->keys != NULL};
+    uint32_t head[3] = {factors->count, factors->keys != NULL, factors->listed};
     FrDigest digest = fr_digest(seed, head, sizeof head);
     for (uint32_t k = 0; k < factors->count; k++) {
         uint32_t var = factors->of[k].var;
         digest = fr_curve_digest(fr_digest(digest, &var, sizeof var), factors->of[k].curve);
     }
+    digest = fr_digest(digest, factors->list, factors->listed * sizeof *factors->list);
     return factors->keys != NULL ? fr_curve_digest(digest, factors->keys) : digest;
 }
 
@@ -214,4 +227,13 @@ bool fr_factors_read_keys(FrFactors **factors, const FrValueText *value) {
 
 void fr_factors_take_keys(FrFactors *factors, const FrFactors *other) {
     factors->keys = other->keys != NULL ? fr_curve_ref(other->keys) : NULL;
+    factors->list = g_memdup2(other->list, other->listed * sizeof *other->list);
+    factors->listed = other->listed;
+}
+
+FrFactors *fr_factors_of_list(const double *values, uint32_t count) {
+    FrFactors *factors = factors_new();
+    factors->list = g_memdup2(values, count * sizeof *values);
+    factors->listed = count;
+    return factors;
 }

@@ -195,6 +195,23 @@ static bool read_variance(Reader *reader, FrNumber *number) {
     return true;
 }
 
+// Ways to spread children over a range that have a name.
+static const char *const ways[][2] = {
+    {"place", "x"},
+    {"uniform", "rand()"},
+    {"normal", "clamp(0.5 + gauss()/6, 0, 1)"}, // the ends are three deviations from the middle
+    {"alternate", "i % 2"},
+};
+
+static const char *way_of(const char *text) {
+    for (size_t k = 0; k < G_N_ELEMENTS(ways); k++) {
+        if (strcmp(text, ways[k][0]) == 0) {
+            return ways[k][1];
+        }
+    }
+    return NULL;
+}
+
 // The rest of the text as a function: a curve's bare name stands for that curve of t.
 static bool read_function(Reader *reader, const FrScope *scope, FrNumber *number) {
     skip_space(reader);
@@ -206,8 +223,10 @@ static bool read_function(Reader *reader, const FrScope *scope, FrNumber *number
     char *text = g_strndup(reader->text + reader->at, end - reader->at);
     FrVar ignored;
     FrCurve *curve = fr_variable_find(text, &ignored) ? NULL : fr_scope_find_curve(scope, text);
-    number->function = curve != NULL ? fr_expr_of_curve(curve, text, place)
-                                     : fr_expr_compile(text, place, scope, reader->diags);
+    const char *way = curve == NULL ? way_of(text) : NULL;
+    number->function = curve != NULL
+                           ? fr_expr_of_curve(curve, text, place)
+                           : fr_expr_compile(way != NULL ? way : text, place, scope, reader->diags);
     fr_curve_unref(curve);
     g_free(text);
     return number->function != NULL;
@@ -238,7 +257,33 @@ static bool read_keys(Reader *reader, const FrScope *scope, FrNumber *number) {
     return is_good && (reader->at == reader->size || unexpected(reader, "the end, '~' or '|'"));
 }
 
+// Values that come in turn, up to a variance or the end.
+static bool read_list(Reader *reader, FrNumber *number) {
+    GArray *values = g_array_new(FALSE, FALSE, sizeof(double));
+    bool is_good = true;
+    do {
+        double value;
+        is_good = read_bounded(reader, number, &value);
+        g_array_append_val(values, value);
+        skip_space(reader);
+    } while (is_good && values->len < FR_MOST_LISTED && reader->at < reader->size &&
+             reader->text[reader->at] != '~');
+    if (is_good) {
+        number->factors =
+            fr_factors_of_list((const double *)(const void *)values->data, values->len);
+    }
+    g_array_unref(values);
+    if (is_good && accept(reader, "~") && !read_variance(reader, number)) {
+        return false;
+    }
+    skip_space(reader);
+    return is_good && (reader->at == reader->size || unexpected(reader, "the end, '~' or '|'"));
+}
+
 static bool read_number(Reader *reader, const FrScope *scope, FrNumber *number) {
+    if (accept(reader, "list ")) {
+        return read_list(reader, number);
+    }
     if (accept(reader, "keys ")) {
         return read_keys(reader, scope, number);
     }

@@ -16,6 +16,7 @@ static const struct {
     FR_VARS(ROW)
 #undef ROW
         {"u", FR_VAR_x}, // the place on the parent, as textbooks of surfaces call it
+    {"r", FR_VAR_depth}, // recursion
 };
 
 static const char *const constants[] = {"pi", "e", "phi"};
@@ -62,6 +63,8 @@ static void report_unknown_value(FrParser *parser, const char *name, size_t begi
     report_unknown(parser, "unknown-name", "variable", name, names, begin, end);
 }
 
+static uint32_t place_number(FrParser *parser, size_t begin, size_t end);
+
 static uint32_t resolve_value(FrParser *parser, const char *name, size_t begin, size_t end) {
     // Own names first: a production may call its parameters x, t or n.
     for (size_t i = 0; i < parser->argument_count; i++) {
@@ -72,6 +75,9 @@ static uint32_t resolve_value(FrParser *parser, const char *name, size_t begin, 
     FrVar variable;
     if (fr_variable_find(name, &variable)) {
         return fr_parser_add(parser, FR_NODE_VARIABLE, variable, begin, end);
+    }
+    if (strcmp(name, "rnd") == 0) {
+        return place_number(parser, begin, end);
     }
     double value;
     if (fr_builtin_constant(name, &value) || fr_scope_value(parser->scope, name, &value)) {
@@ -129,6 +135,13 @@ static uint32_t finish_call(FrParser *parser, const Call *call, FrNodeKind kind,
         fr_parser_adopt(parser, node, call->arguments[i]);
     }
     return node;
+}
+
+// `rnd` alone is the random number 0 of its place.
+static uint32_t place_number(FrParser *parser, size_t begin, size_t end) {
+    Call call = {.begin = begin, .name_end = end, .end = end, .count = 1};
+    call.arguments[0] = fr_parser_number(parser, 0, begin, end);
+    return finish_call(parser, &call, FR_NODE_BUILTIN, fr_builtin_find("rnd"));
 }
 
 static uint32_t finish_curve(FrParser *parser, const Call *call, FrCurve *curve) {

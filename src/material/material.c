@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include "material/codec.h"
+#include "material/ramp.h"
 #include "material/texture.h"
 
 #define FR_PARAM_STRUCT FrMaterialParams
@@ -34,7 +35,10 @@ struct FrMaterial {
     FrSpan span;
     FrSpan places[FR_MAP_COUNT]; ///< of the files' names
     FrMaterialParams params;
-    pthread_mutex_t lock; ///< guards slots; not GMutex: thread sanitizers see through this
+    FrRamp ramp;
+    FrMaterial *steps[FR_RAMP_STEPS + 1]; ///< owned; NULL: not yet made
+    pthread_mutex_t
+        lock; ///< guards slots and steps; not GMutex: thread sanitizers see through this
     Slot slots[FR_MAP_COUNT];
 };
 
@@ -50,6 +54,7 @@ FrMaterial *fr_material_new(const char *name, const FrMaterialParams *params, co
         fr_source_ref(span.source);
     }
     fr_params_copy(&table, &material->params, params);
+    fr_ramp_read(&material->ramp, params->ramp, span, NULL);
     return material;
 }
 
@@ -73,6 +78,9 @@ void fr_material_unref(FrMaterial *material) {
         g_clear_pointer(&material->slots[map].image, fr_image_unref);
         fr_source_unref(material->places[map].source);
     }
+    for (uint32_t step = 0; step <= FR_RAMP_STEPS; step++) {
+        fr_material_unref(material->steps[step]);
+    }
     fr_params_clear(&table, &material->params);
     if (material->span.source != NULL) {
         fr_source_unref(material->span.source);
@@ -89,6 +97,46 @@ const char *fr_material_name(const FrMaterial *material) {
 
 const FrMaterialParams *fr_material_params(const FrMaterial *material) {
     return &material->params;
+}
+
+bool fr_material_has_ramp(const FrMaterial *material) {
+    return material->ramp.count > 0;
+}
+
+bool fr_material_check_ramp(const char *text, FrSpan span, FrDiags *diags) {
+    FrRamp ramp;
+    return fr_ramp_read(&ramp, text, span, diags);
+}
+
+static FrMaterial *make_step(const FrMaterial *material, uint32_t step) {
+    FrMaterialParams params;
+    fr_params_copy(&table, &params, &material->params);
+    g_clear_pointer(&params.ramp, g_free);
+    params.colour = fr_ramp_at(&material->ramp, (double)step / FR_RAMP_STEPS);
+    char *name = g_strdup_printf("%s-%02u", material->name, step);
+    FrMaterial *made = fr_material_new(name, &params, material->folder, material->span);
+    for (int map = 0; map < FR_MAP_COUNT; map++) {
+        if (material->places[map].source != NULL) {
+            fr_material_set_place(made, (FrMap)map, material->places[map]);
+        }
+    }
+    g_free(name);
+    fr_params_clear(&table, &params);
+    return made;
+}
+
+FrMaterial *fr_material_at(FrMaterial *material, uint32_t step) {
+    FR_ASSERT(step <= FR_RAMP_STEPS);
+    if (material->ramp.count == 0) {
+        return material;
+    }
+    pthread_mutex_lock(&material->lock);
+    if (material->steps[step] == NULL) {
+        material->steps[step] = make_step(material, step);
+    }
+    FrMaterial *made = material->steps[step];
+    pthread_mutex_unlock(&material->lock);
+    return made;
 }
 
 /// The user's file for that map, or NULL.

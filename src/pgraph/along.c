@@ -41,7 +41,8 @@ uint32_t fr_along_find(const FrStemParams *params) {
 double fr_along_at(const FrStem *stem, FrAlong which, double at) {
     FrEvaluator *evaluator = stem->evaluator;
     const FrNumber *number = number_of(stem->prepared->params, which);
-    evaluator->vars.value[FR_VAR_s] = at * stem->whole;
+    bool is_thickness = which == FR_ALONG_RADIUS || which == FR_ALONG_FLATNESS;
+    evaluator->vars.value[FR_VAR_s] = at * (is_thickness ? stem->slim : stem->whole);
     double value = fr_value(evaluator, number, rows[which].parameter);
     evaluator->vars.value[FR_VAR_s] = 0;
     return value;

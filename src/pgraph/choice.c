@@ -92,8 +92,9 @@ uint32_t fr_choose(const FrExpansion *expansion, uint32_t row, FrEvaluator *eval
     for (uint32_t k = 0; k < stage->link_count; k++) {
         sum += weight_of(prepared, expansion, fr_stage_link(expansion, stage, k));
     }
-    double at = params->rule == FR_CHOOSE_IN_TURN
-                    ? fmod(expansion->level.i[row], fmax(sum, 1e-9))
-                    : sum * fr_random(expansion->level.key[row], FR_VARIATION_weights, 0);
+    double at =
+        params->rule == FR_CHOOSE_IN_TURN
+            ? fmod(expansion->level.i[row], fmax(sum, 1e-9))
+            : sum * fr_random(expansion->level.key[row], fr_purpose(FR_VARIATION_weights), 0);
     return link_at(expansion, row, at);
 }

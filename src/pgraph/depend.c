@@ -1,6 +1,7 @@
 #include "pgraph/depend.h"
 
 #include "pgraph/choice.h"
+#include "pgraph/ramp.h"
 
 #include <string.h>
 
@@ -29,7 +30,10 @@ static FrDigest digest_parameters(FrDigest digest, const FrPrepared *prepared, E
 }
 
 FrDigest fr_depend_inputs(const FrPgraph *graph) {
-    return fr_digest(0, &graph->seed, sizeof graph->seed);
+    FrDigest digest = fr_digest(0, &graph->seed, sizeof graph->seed);
+    bool has_ramps = fr_has_ramps(graph);
+    digest = fr_digest(digest, &has_ramps, sizeof has_ramps);
+    return fr_digest(digest, &graph->state, sizeof graph->state);
 }
 
 static FrDigest digest_component(const FrExpansion *expansion, uint32_t component) {

@@ -3,7 +3,7 @@
 ///
 /// An instance is made from
 ///
-/// - the build's own inputs: fr_depend_inputs(). An input that is no parameter (the seed) goes
+/// - the build's own inputs: fr_depend_inputs(). An input that is no parameter (seed, time) goes
 /// there;
 /// - what its parent hands down (FR_LEVEL_SITE in level.h), all of which comes from the same;
 /// - its stage: fr_depend_stages(). All parameters of its component count, those of the tables that

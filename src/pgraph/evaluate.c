@@ -1,5 +1,7 @@
 #include "pgraph/evaluate.h"
 
+#include "pgraph/params.h"
+
 static guint fault_hash(gconstpointer data) {
     const FrValueFault *fault = data;
     return fault->component * 64 + fault->parameter;
@@ -31,7 +33,7 @@ void fr_value_note(FrEvaluator *evaluator, uint32_t component, uint32_t paramete
 
 double fr_value_varying(FrEvaluator *evaluator, const FrNumber *number, uint32_t parameter) {
     FrExprFault fault = {0};
-    double value = fr_number_eval_varying(number, &evaluator->vars, parameter, &fault);
+    double value = fr_number_eval_varying(number, &evaluator->vars, fr_purpose(parameter), &fault);
     fr_value_note(evaluator, evaluator->component, parameter, &fault);
     return value;
 }

@@ -10,6 +10,7 @@
 
 #include "pgraph/global.h"
 #include "pgraph/kept.h"
+#include "pgraph/ramp.h"
 
 #include <math.h>
 
@@ -132,7 +133,8 @@ static FrStatus find_shapes(FrBuild *build) {
     for (uint32_t row = 0; row < expansion->level.count; row++) {
         const FrPrepared *prepared = fr_stage_prepared(expansion, expansion->level.stage[row]);
         uint32_t organ = expansion->level.organ_count[row];
-        if (prepared->kind != FR_COMPONENT_LEAF || plant->organs.shape[organ] != FR_NONE) {
+        if (expansion->level.is_absent[row] || prepared->kind != FR_COMPONENT_LEAF ||
+            plant->organs.shape[organ] != FR_NONE) {
             continue;
         }
         FrShape *shape = &expansion->blades[organ - expansion->first_organ];
@@ -164,11 +166,32 @@ static bool needs_blades(const FrExpansion *expansion) {
     return false;
 }
 
+// The i-tree's rows of the level, which begin at `first`: of what is there.
+static void record_tree(FrBuild *build, uint64_t first) {
+    const FrLevel *level = &build->expansion.level;
+    FrPgraphCounts *counts = build->counts;
+    counts->parent = g_renew(uint32_t, counts->parent, build->instances);
+    counts->component = g_renew(uint32_t, counts->component, build->instances);
+    uint32_t *numbers = g_new(uint32_t, MAX(level->count, 1));
+    for (uint32_t row = 0; row < level->count; row++) {
+        if (level->is_absent[row]) {
+            continue;
+        }
+        uint32_t parent = level->parent[row];
+        counts->parent[first] = parent != FR_NONE ? build->numbers[parent] : FR_NONE;
+        counts->component[first] = fr_instance_stage(&build->expansion, row)->component;
+        numbers[row] = (uint32_t)first++;
+    }
+    g_free(build->numbers);
+    build->numbers = numbers;
+}
+
 static void record_level(FrBuild *build) {
     const FrLevel *level = &build->expansion.level;
-    build->instances += level->count;
+    uint64_t first = build->instances;
     for (uint32_t row = 0; row < level->count; row++) {
-        build->taken_over += level->twin[row] != FR_NONE;
+        build->instances += !level->is_absent[row];
+        build->taken_over += !level->is_absent[row] && level->twin[row] != FR_NONE;
     }
     FrPgraphCounts *counts = build->counts;
     if (counts == NULL) {
@@ -176,26 +199,17 @@ static void record_level(FrBuild *build) {
     }
     counts->instances = build->instances;
     for (uint32_t row = 0; row < level->count; row++) {
-        counts->by_component[fr_instance_stage(&build->expansion, row)->component]++;
+        counts->by_component[fr_instance_stage(&build->expansion, row)->component] +=
+            !level->is_absent[row];
     }
     if (counts->parent != NULL) {
-        counts->parent = g_renew(uint32_t, counts->parent, build->instances);
-        counts->component = g_renew(uint32_t, counts->component, build->instances);
-        uint64_t before = level->first - build->expansion.level_before;
-        for (uint32_t row = 0; row < level->count; row++) {
-            uint32_t parent = level->parent[row];
-            counts->parent[level->first + row] =
-                parent != FR_NONE ? (uint32_t)(before + parent) : FR_NONE;
-            counts->component[level->first + row] =
-                fr_instance_stage(&build->expansion, row)->component;
-        }
+        record_tree(build, first);
     }
 }
 
 static FrStatus expand_level(FrBuild *build) {
     FrExpansion *expansion = &build->expansion;
     const FrContext *context = build->context;
-    record_level(build);
     FrStatus status = fr_grafts_grow(&build->grafting, expansion, context);
     if (status != FR_OK) {
         return status;
@@ -204,6 +218,7 @@ static FrStatus expand_level(FrBuild *build) {
     if (fr_progress_is_cancelled(context->progress)) {
         return FR_CANCELLED;
     }
+    record_level(build);
     FrLevelSums sums = fr_level_sum(expansion);
     status = fr_build_check_level(build, &sums);
     if (status != FR_OK) {
@@ -248,6 +263,7 @@ static void begin_level(FrBuild *build) {
         level->parent_length[row] = -1;
         level->parent_radius[row] = 0;
         level->stretch[row] = 1;
+        level->clock[row] = (float)(expansion->graph->state.age + expansion->graph->state.time);
         level->material[row] = level->axis[row] = FR_NONE;
         level->deformer[row] = level->field[row] = FR_NONE;
         level->scopes[row] = 0;
@@ -317,7 +333,6 @@ static void report_faults(const FrBuild *build, int workers) {
 // Keeps a level that has been made, or lets it go, and goes on with the next.
 static void step_down(FrBuild *build) {
     FrExpansion *expansion = &build->expansion;
-    expansion->level_before = expansion->level.count;
     if (build->levels != NULL) {
         g_array_append_val(build->levels, expansion->level);
     } else {
@@ -388,7 +403,12 @@ static FrStatus prepare_and_expand(FrBuild *build, const FrRecursions *recursion
     FrStatus status = fr_prepare(&prepared, expansion->graph, recursions, expansion->plant,
                                  expansion->faults[0], context);
     expansion->prepared = prepared;
+    expansion->ramps = fr_ramps_add(expansion->plant);
     status = status == FR_OK ? expand_or_share(build) : status;
+    if (status == FR_OK) {
+        fr_ramps_drop_unused(expansion->plant, expansion->ramps);
+    }
+    g_free(expansion->ramps);
     report_faults(build, workers);
     for (int worker = 0; worker < workers; worker++) {
         g_hash_table_unref(expansion->faults[worker]);
@@ -431,6 +451,7 @@ static FrStatus run(FrBuild *build, FrUnrolled *unrolled) {
     }
     fr_recursions_clear(&recursions);
     fr_grafting_clear(&build->grafting);
+    g_free(build->numbers);
     if (status == FR_OK) {
         fr_progress_report(build->context->progress, "build", 1);
     }

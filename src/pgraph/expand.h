@@ -13,6 +13,7 @@ typedef struct FrBuild {
     uint64_t instances;        ///< of all levels so far
     uint64_t considered;       ///< with those that flags left out
     uint64_t taken_over;       ///< from the last build
+    uint32_t *numbers;         ///< in the i-tree, of the rows of the level before; owned; NULL
     FrPgraphBuild *made;       ///< what is kept of it; NULL: only the plant
     const FrPgraphBuild *last; ///< NULL
     GArray *levels;            ///< FrLevel, those that have been made; NULL if they are not kept

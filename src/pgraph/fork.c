@@ -7,6 +7,7 @@
 #include "pgraph/fork.h"
 
 #include <math.h>
+#include <string.h>
 
 #define PI 3.14159265358979323846
 
@@ -47,11 +48,12 @@ static double value_of(const Forking *forking, const FrNumber *number, uint32_t 
 // The fork at the end of a limb, 1 if it goes on to the tip.
 static double fork_of(const Forking *forking, const FrLimb *limb) {
     double left = forking->forks - limb->forks;
-    if (!(left > 0) || (left < 1 && fr_random(limb->key, FR_STEM_forks, limb->forks) >= left)) {
+    if (!(left > 0) ||
+        (left < 1 && fr_random(limb->key, fr_purpose(FR_STEM_forks), limb->forks) >= left)) {
         return 1;
     }
     double gap = (forking->end - forking->start) / forking->most;
-    double off = JITTER * fr_random_signed(limb->key, FR_STEM_fork_start, limb->forks);
+    double off = JITTER * fr_random_signed(limb->key, fr_purpose(FR_STEM_fork_start), limb->forks);
     double at = (forking->start + (limb->forks + 0.5 + off) * gap) / forking->stem->whole;
     at = fmax(at, limb->start + SHORTEST);
     return at < 1 - SHORTEST ? at : 1;
@@ -84,7 +86,7 @@ static void add_arms(Forking *forking, uint32_t from, uint32_t *axes) {
             .axis = arm == 0 ? before.axis : (*axes)++,
             .begins_axis = arm > 0,
             .key = arm == 0 ? before.key
-                            : fr_key_child(fr_key_child(before.key, FR_STEM_forks),
+                            : fr_key_child(fr_key_child(before.key, fr_purpose(FR_STEM_forks)),
                                            before.forks * 4ull + arm),
         };
         limb.turn = arm == 0 ? 0.5 * balance * angle : angle - 0.5 * balance * angle;
@@ -120,6 +122,7 @@ static void settle(FrStem *stem) {
     for (uint32_t k = 0; k < stem->limb_count; k++) {
         FrLimb *limb = &stem->limbs[k];
         limb->first = node;
+        limb->span = limb->end - limb->start;
         node += limb->internodes;
         stem->axes = MAX(stem->axes, limb->axis + 1);
         stem->tips += limb->end >= 1;
@@ -165,6 +168,38 @@ void fr_stem_fork(FrStem *stem, FrEvaluator *evaluator) {
     stem->axes = stem->tips = 0;
     stem->gaps = 0;
     settle(stem);
+}
+
+void fr_stem_grow_limbs(FrStem *stem) {
+    uint32_t count = 0, node = 0, axes = 0;
+    uint32_t *kept = g_new(uint32_t, stem->limb_count), *axis = g_new(uint32_t, stem->axes);
+    memset(axis, 0xff, stem->axes * sizeof *axis); // FR_NONE
+    stem->tips = 0;
+    for (uint32_t k = 0; k < stem->limb_count; k++) {
+        FrLimb limb = stem->limbs[k];
+        kept[k] = FR_NONE;
+        if (limb.before != FR_NONE && limb.start >= stem->reach) {
+            continue;
+        }
+        kept[k] = count;
+        limb.before = limb.before != FR_NONE ? kept[limb.before] : FR_NONE;
+        if (axis[limb.axis] == FR_NONE) {
+            axis[limb.axis] = axes++;
+        }
+        limb.axis = axis[limb.axis];
+        limb.start /= stem->reach;
+        limb.span /= stem->reach;
+        limb.end = fmin(limb.end / stem->reach, 1);
+        limb.first = node;
+        node += limb.internodes;
+        stem->tips += limb.end >= 1;
+        stem->limbs[count++] = limb;
+    }
+    stem->limb_count = count;
+    stem->axes = axes;
+    stem->internodes = node;
+    g_free(kept);
+    g_free(axis);
 }
 
 void fr_stem_clear(FrStem *stem) {

@@ -4,6 +4,7 @@
 #include "pgraph/graft.h"
 
 #include "pgraph/global.h"
+#include "pgraph/life.h"
 
 enum { MOST_AT_ONCE = 1024 };
 
@@ -246,8 +247,10 @@ static FrStatus check_grafter(const FrGrafting *grafting, const FrExpansion *exp
 FrStatus fr_grafts_grow(FrGrafting *grafting, FrExpansion *expansion, const FrContext *context) {
     const FrLevel *level = &expansion->level;
     GArray *rows = g_array_new(FALSE, FALSE, sizeof(uint32_t));
+    FrEvaluator evaluator = {.faults = expansion->faults[0]};
     for (uint32_t row = 0; row < level->count; row++) {
-        if (fr_stage_prepared(expansion, level->stage[row])->kind == FR_COMPONENT_GRAFT) {
+        bool is_graft = fr_stage_prepared(expansion, level->stage[row])->kind == FR_COMPONENT_GRAFT;
+        if (is_graft && fr_instance_lives(expansion, row, &evaluator)) {
             g_array_append_val(rows, row);
         }
     }

@@ -41,6 +41,7 @@ FrPgraph *fr_pgraph_new(const char *name, uint64_t seed) {
     FrPgraph *graph = g_new0(FrPgraph, 1);
     graph->name = g_strdup(name != NULL ? name : "");
     graph->seed = seed;
+    graph->state.health = 1;
     graph->prototypes = g_array_new(FALSE, FALSE, sizeof(FrPrototype));
     g_array_set_clear_func(graph->prototypes, prototype_clear);
     graph->links = g_array_new(FALSE, FALSE, sizeof(FrPgraphLink));
@@ -50,6 +51,10 @@ FrPgraph *fr_pgraph_new(const char *name, uint64_t seed) {
     graph->material_names = g_hash_table_new(g_str_hash, g_str_equal);
     graph->link_keys = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
     return graph;
+}
+
+void fr_pgraph_set_state(FrPgraph *graph, const FrPgraphState *state) {
+    graph->state = *state;
 }
 
 void fr_pgraph_free(FrPgraph *graph) {

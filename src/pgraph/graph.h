@@ -31,6 +31,7 @@ typedef struct FrPgraphLink {
 struct FrPgraph {
     char *name;
     uint64_t seed;
+    FrPgraphState state;
     GArray *prototypes;         ///< FrPrototype
     GArray *links;              ///< FrPgraphLink, as they were added
     GPtrArray *materials;       ///< FrMaterial *, owned references

@@ -1,6 +1,7 @@
 #include "pgraph/instance.h"
 
 #include "pgraph/global.h"
+#include "pgraph/life.h"
 
 #include "plant/frames.h"
 
@@ -23,15 +24,15 @@ static uint32_t component_of(const FrExpansion *expansion, uint32_t row) {
     return fr_instance_stage(expansion, row)->component;
 }
 
-static double height_of(const FrExpansion *expansion, uint32_t row) {
+static vec3s place_of(const FrExpansion *expansion, uint32_t row) {
     const FrLevel *level = &expansion->level;
     const FrNodes *nodes = &expansion->plant->nodes;
     uint32_t bearer = level->bearer[row];
     if (bearer == FR_NONE) {
-        return (double)level->offset[row].z;
+        return level->offset[row];
     }
     vec3s offset = fr_turned(nodes->frame[bearer], level->offset[row]);
-    return (double)(nodes->position[bearer].z + offset.z);
+    return glms_vec3_add(nodes->position[bearer], offset);
 }
 
 void fr_instance_enter(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
@@ -61,8 +62,20 @@ void fr_instance_enter(const FrExpansion *expansion, uint32_t row, FrEvaluator *
     value[FR_VAR_depth] = level->generation[row];
     value[FR_VAR_order] = level->order[row];
     value[FR_VAR_x] = (double)level->x[row];
-    value[FR_VAR_height] = prepared->uses_height ? height_of(expansion, row) : 0;
+    value[FR_VAR_age] = (double)level->age[row];
+    value[FR_VAR_time] = expansion->graph->state.time;
+    value[FR_VAR_season] = expansion->graph->state.season;
+    value[FR_VAR_health] = expansion->graph->state.health;
     value[FR_VAR_light] = 1;
+    if (prepared->uses_place) {
+        fr_place_set(&evaluator->vars, place_of(expansion, row));
+    }
+}
+
+void fr_place_set(FrVars *vars, vec3s place) {
+    vars->value[FR_VAR_px] = (double)place.x;
+    vars->value[FR_VAR_py] = (double)place.y;
+    vars->value[FR_VAR_pz] = vars->value[FR_VAR_height] = (double)place.z;
 }
 
 void fr_place_enter(FrEvaluator *place, const FrEvaluator *parent, const FrLevel *level,
@@ -130,7 +143,11 @@ FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator 
         pose.is_turned_or_moved |=
             x != 0 || y != 0 || z != 0 || by.x != 0 || by.y != 0 || by.z != 0;
     }
-    pose.scale = fmax(SMALLEST, fmin(pose.scale * FR_GET(scale), LARGEST));
+    pose.scale *= FR_GET(scale);
+    if (prepared->grows && !prepared->is_stem) {
+        pose.scale *= fr_growth_now(prepared, evaluator);
+    }
+    pose.scale = fmax(SMALLEST, fmin(pose.scale, LARGEST));
 #undef FR_GET
     return pose;
 }
@@ -162,6 +179,13 @@ uint32_t fr_instance_material(const FrExpansion *expansion, uint32_t row) {
     return own != FR_NONE ? own : expansion->level.material[row];
 }
 
+uint32_t fr_instance_look(const FrExpansion *expansion, uint32_t row) {
+    uint32_t material = fr_instance_material(expansion, row);
+    bool has_ramp =
+        expansion->ramps != NULL && material != FR_NONE && expansion->ramps[material] != FR_NONE;
+    return has_ramp ? expansion->ramps[material] + expansion->level.ramp[row] : material;
+}
+
 void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLink *link,
                     const FrChild *child, uint32_t at) {
     const FrLevel *level = &expansion->level;
@@ -189,6 +213,7 @@ void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLin
     next->parent_length[at] = child->parent_length;
     next->parent_radius[at] = child->parent_radius;
     next->stretch[at] = child->stretch;
+    next->clock[at] = child->age;
     next->material[at] = fr_instance_material(expansion, row);
     next->deformer[at] = level->deformer[row];
     next->field[at] = level->field[row];

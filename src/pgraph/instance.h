@@ -14,14 +14,14 @@ typedef struct FrExpansion {
     const FrPrepared *prepared; ///< of each component
     FrPlant *plant;
     FrLevel level, next;
-    uint32_t level_before; ///< instances of the level before
-    GHashTable **faults;   ///< of each worker
-    FrShape *blades;       ///< of this level's organs, for shapes to be found after the loop; NULL
-    uint32_t first_organ;  ///< of this level
-    GArray *fields;        ///< FrField
-    uint32_t depth;        ///< of this level, from 0
+    GHashTable **faults;  ///< of each worker
+    FrShape *blades;      ///< of this level's organs, for shapes to be found after the loop; NULL
+    uint32_t first_organ; ///< of this level
+    GArray *fields;       ///< FrField
+    uint32_t depth;       ///< of this level, from 0
     const struct FrTwins *twins;       ///< instances of the last build; NULL
     const struct FrGrafting *grafting; ///< what stands at this level's grafts
+    uint32_t *ramps;                   ///< of each material, see fr_ramps_add(); NULL: none has one
 } FrExpansion;
 
 /// Where and how large an instance is, its own transformation applied.
@@ -42,6 +42,7 @@ typedef struct FrChild {
     uint8_t joint;
     uint16_t order;
     float x, parent_length, parent_radius, stretch;
+    float age; ///< of the clock around it, years; less than 0: not yet there
     uint32_t axis;
 } FrChild;
 
@@ -61,14 +62,17 @@ static inline const FrPrepared *fr_stage_prepared(const FrExpansion *expansion, 
 
 /// Sets the variables of the instance in that row.
 void fr_instance_enter(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
+/// Sets the variables that are a place in the plant.
+void fr_place_set(FrVars *vars, vec3s place);
 /// Its pose; the variables must be set.
 FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// What its stem grows from.
 FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, double scale);
 /// The fields it grows in.
 FrFields fr_instance_fields(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
-/// The material of what it makes.
+/// The material of what it makes, and that of its colour.
 uint32_t fr_instance_material(const FrExpansion *expansion, uint32_t row);
+uint32_t fr_instance_look(const FrExpansion *expansion, uint32_t row);
 /// A pose moved and turned within itself.
 FrPose fr_pose_moved(FrPose pose, vec3s by, versors turn);
 /// Variables for the parameters that a multiplier has for each child.

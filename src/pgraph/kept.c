@@ -99,7 +99,9 @@ void fr_kept_begin(FrPgraphBuild *made, const FrBuild *build, const FrPgraphBuil
     made->has_own_shapes = fr_depend_has_own_shapes(expansion);
     made->stages = fr_depend_stages(expansion);
     *twins = (FrTwins){.last = last};
-    if (last == NULL || last->has_faults || last->inputs != made->inputs) {
+    // Steps of ramps that nothing has are dropped, so that indices of materials do not last.
+    if (last == NULL || last->has_faults || last->inputs != made->inputs ||
+        expansion->ramps != NULL) {
         twins->last = NULL;
         return;
     }

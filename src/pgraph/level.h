@@ -35,6 +35,7 @@ enum {
     X(float, parent_length) /* of the stem it stands on, m at scale 1; < 0: there is none */       \
     X(float, parent_radius) /* the same, where it stands */                                        \
     X(float, stretch)       /* factor of its length, from its parent */                            \
+    X(float, clock)         /* years of the clock around it; < 0: not yet there */                 \
     X(uint32_t, material)   /* of the plant, FR_NONE */                                            \
     X(uint32_t, deformer)   /* scope it is in, of the plant; FR_NONE */                            \
     X(uint32_t, field)      /* field it is in; FR_NONE */                                          \
@@ -46,6 +47,9 @@ enum {
 /// What it makes: X(type, column). In a level that has been made, one row more tells where the last
 /// instance's end.
 #define FR_LEVEL_COUNTS(X)                                                                         \
+    X(float, age)             /* years of its own clock */                                         \
+    X(uint8_t, is_absent)     /* not born, dead, left out by chance */                             \
+    X(uint8_t, ramp)          /* step on the ramp of its material */                               \
     X(uint32_t, tips)         /* ends where single children stand */                               \
     X(uint32_t, places)       /* children of a multiplier, flagged-out ones counted */             \
     X(uint32_t, child_count)  /* then: index of the first child in the next level */               \

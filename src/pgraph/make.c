@@ -14,6 +14,7 @@ static const vec3s nowhere = {{0, 0, 0}};
 // share shapes.
 #define SHAPE_POSITIONS 64.0
 #define SHAPE_HEIGHT 0.1
+#define SHAPE_AGES 256.0
 
 static const FrPrepared *prepared_of(const FrExpansion *expansion, uint32_t row) {
     return &expansion->prepared[fr_instance_stage(expansion, row)->component];
@@ -30,6 +31,7 @@ FrChild fr_single_child(const FrExpansion *expansion, uint32_t row, FrPose site)
         .parent_length = level->parent_length[row],
         .parent_radius = level->parent_radius[row],
         .stretch = 1,
+        .age = level->age[row],
         .axis = FR_NONE,
     };
 }
@@ -75,7 +77,7 @@ uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t org
     organs->rotation[organ] = pose.rotation;
     organs->scale[organ] = (float)fmax(pose.scale, 1e-9);
     organs->shape[organ] = shape;
-    organs->material[organ] = fr_instance_material(expansion, row);
+    organs->material[organ] = fr_instance_look(expansion, row);
     organs->component[organ] = fr_instance_stage(expansion, row)->component;
     organs->deformer[organ] = expansion->level.deformer[row];
     organs->path[organ] = expansion->level.key[row];
@@ -91,7 +93,7 @@ static void write_axis(const FrExpansion *expansion, uint32_t row, uint32_t axis
     axes->order[axis] = expansion->level.order[row];
     axes->flags[axis] = flags;
     axes->profile[axis] = prepared_of(expansion, row)->profile;
-    axes->material[axis] = fr_instance_material(expansion, row);
+    axes->material[axis] = fr_instance_look(expansion, row);
     axes->component[axis] = fr_instance_stage(expansion, row)->component;
     axes->deformer[axis] = expansion->level.deformer[row];
     axes->path[axis] = expansion->level.key[row];
@@ -157,12 +159,22 @@ static versors leaf_rotation(const FrExpansion *expansion, uint32_t row, FrPose 
     return fr_frame_step(back, frame);
 }
 
+// Ages a leaf shares its shape with: steps of 1/256 of a year, or of the age's power of two.
+static double rounded_age(double age) {
+    double step = fmax(1, exp2(floor(log2(fmax(age, 1))))) / SHAPE_AGES;
+    return round(age / step) * step;
+}
+
 void fr_enter_leaf_shape(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
     const FrPrepared *prepared = prepared_of(expansion, row);
     uint32_t variant = (uint32_t)(expansion->level.key[row] % prepared->variant_count);
     double *value = evaluator->vars.value;
     value[FR_VAR_x] = round(value[FR_VAR_x] * SHAPE_POSITIONS) / SHAPE_POSITIONS;
-    value[FR_VAR_height] = round(value[FR_VAR_height] / SHAPE_HEIGHT) * SHAPE_HEIGHT;
+    value[FR_VAR_px] = round(value[FR_VAR_px] / SHAPE_HEIGHT) * SHAPE_HEIGHT;
+    value[FR_VAR_py] = round(value[FR_VAR_py] / SHAPE_HEIGHT) * SHAPE_HEIGHT;
+    value[FR_VAR_pz] = round(value[FR_VAR_pz] / SHAPE_HEIGHT) * SHAPE_HEIGHT;
+    value[FR_VAR_height] = value[FR_VAR_pz];
+    value[FR_VAR_age] = rounded_age(value[FR_VAR_age]);
     evaluator->vars.key = fr_variant_key(expansion->graph, prepared, variant);
 }
 
@@ -297,7 +309,7 @@ static void begin_axis(const FrExpansion *expansion, uint32_t row, const FrStem 
     bool is_base = limb->before == FR_NONE;
     bool continues = is_base && level->joint[row] == FR_JOINT_TIP && !pose.is_turned_or_moved;
     unsigned flags = (continues ? FR_CONTINUES : 0u) | (is_base ? 0u : FR_FORK) |
-                     (params->tip == FR_TIP_FLAT || stem->whole < 1 ? FR_CUT : 0u) |
+                     (params->tip == FR_TIP_FLAT || stem->slim < 1 ? FR_CUT : 0u) |
                      (params->course == FR_COURSE_STEPS ? FR_POINT_SETS : 0u) |
                      (params->primitive > FR_PRIMITIVE_AREA ? FR_HIDDEN : 0u);
     if (is_base && params->course == FR_COURSE_PATH) {
@@ -354,7 +366,7 @@ static void make_tips(const FrExpansion *expansion, uint32_t row, const FrStem *
         child.key = limb->axis > 0 ? limb->key : 0;
         child.joint = stem->internodes > 0 ? FR_JOINT_TIP : FR_JOINT_NONE;
         child.x = 1;
-        child.parent_length = (float)(stem->length / tips[l].scale);
+        child.parent_length = (float)(stem->length / stem->reach / tips[l].scale);
         child.parent_radius = (float)(fr_limb_radius(stem, limb, 1) / tips[l].scale);
         at = fr_make_single_children(expansion, row, child, at);
     }
@@ -403,6 +415,9 @@ static void make_choice(const FrExpansion *expansion, uint32_t row, FrEvaluator 
 
 void fr_instance_make(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
                       FrEvaluator *place) {
+    if (expansion->level.is_absent[row]) {
+        return;
+    }
     fr_instance_enter(expansion, row, evaluator);
     switch (prepared_of(expansion, row)->kind) {
     case FR_COMPONENT_HORN:

@@ -3,6 +3,8 @@
 #include "pgraph/global.h"
 #include "pgraph/graft.h"
 #include "pgraph/instance.h"
+#include "pgraph/life.h"
+#include "pgraph/ramp.h"
 
 #include <math.h>
 
@@ -59,6 +61,13 @@ void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator
     level->node_count[row] = 0;
     level->axis_count[row] = 0;
     level->organ_count[row] = 0;
+    level->global_count[row] = 0;
+    level->is_absent[row] = !fr_instance_lives(expansion, row, evaluator);
+    if (level->is_absent[row]) {
+        return;
+    }
+    level->ramp[row] =
+        expansion->ramps != NULL ? fr_ramp_step(expansion, row, evaluator) : (uint8_t)0;
     level->global_count[row] = fr_is_global(prepared->kind);
     switch (prepared->kind) {
     case FR_COMPONENT_HORN:
@@ -114,6 +123,9 @@ static uint32_t flagged_branches(const FrStem *stem, const FrFlags *flags) {
 
 uint32_t fr_instance_children(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
     const FrLevel *level = &expansion->level;
+    if (level->is_absent[row]) {
+        return 0;
+    }
     const FrStage *stage = fr_instance_stage(expansion, row);
     FrComponentKind kind = expansion->prepared[stage->component].kind;
     FrStem stem = {0};

@@ -38,8 +38,8 @@ static void stand_at(Branching *branching, uint32_t place, FrPose *site) {
     if (stem->internodes == 0) {
         return;
     }
-    double back;
-    uint32_t k = fr_limb_node_of(stem, branching->limb, branching->at, place, &back);
+    double back, at = fmin(branching->at / stem->reach, 1);
+    uint32_t k = fr_limb_node_of(stem, branching->limb, at, place, &back);
     uint32_t node = branching->expansion->level.node_count[branching->row];
     node += branching->limb->first + k;
     float length = branching->expansion->plant->nodes.length[node];
@@ -48,12 +48,12 @@ static void stand_at(Branching *branching, uint32_t place, FrPose *site) {
     site->rotation = (versors){{0, 0, 0, 1}};
 }
 
-static double height_of(const FrPlant *plant, FrPose site) {
+static vec3s place_of(const FrPlant *plant, FrPose site) {
     if (site.bearer == FR_NONE) {
-        return (double)site.offset.z;
+        return site.offset;
     }
-    vec3s heading = fr_frame_heading(plant->nodes.frame[site.bearer]);
-    return (double)(plant->nodes.position[site.bearer].z + site.offset.z * heading.z);
+    return fr_advanced(plant->nodes.position[site.bearer], plant->nodes.frame[site.bearer],
+                       site.offset.z);
 }
 
 // All around the stem the turn is as it is; a narrower sector has it drawn together about the y
@@ -89,22 +89,26 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
     FrKey stem_key = branching->limb->axis > 0 ? branching->limb->key : level->key[branching->row];
     FrKey key = fr_key_child(stem_key, b);
     place->vars.key = key;
+    double age = fr_stem_age_at(stem, (double)level->age[branching->row], branching->at);
     if (stem->prepared->varies) {
         fr_place_enter(place, evaluator, level, branching->row, b, places->branches, key);
         place->vars.value[FR_VAR_x] = branching->at;
-        place->vars.value[FR_VAR_height] =
-            stem->prepared->uses_height ? height_of(branching->expansion->plant, site) : 0;
+        place->vars.value[FR_VAR_age] = age;
+        if (stem->prepared->uses_place) {
+            fr_place_set(&place->vars, place_of(branching->expansion->plant, site));
+        }
     }
 #define FR_GET(field) fr_value(place, &tree->field, FR_TREE_##field)
     double jitter = FR_GET(azimuth_jitter);
     double azimuth = swept(fr_branch_azimuth(places, b), branching->sweep) + FR_GET(azimuth);
-    azimuth += jitter != 0 ? jitter * fr_random_signed(key, FR_TREE_azimuth_jitter, 1) : 0;
+    azimuth +=
+        jitter != 0 ? jitter * fr_random_signed(key, fr_purpose(FR_TREE_azimuth_jitter), 1) : 0;
     versors turn = fr_turned_zyz(azimuth, FR_GET(branching_angle), PI / 2 + FR_GET(roll));
-    double radius = fr_limb_radius(stem, branching->limb, branching->at);
+    double now = fmin(branching->at / stem->reach, 1);
+    double radius = fr_limb_radius(stem, branching->limb, now);
     azimuth -= 2 * PI * floor(azimuth / (2 * PI));
-    *reach = (vec3s){
-        {(float)radius * cosf((float)azimuth),
-         (float)(radius * fr_stem_flatness(stem, branching->at)) * sinf((float)azimuth), 0}};
+    *reach = (vec3s){{(float)radius * cosf((float)azimuth),
+                      (float)(radius * fr_stem_flatness(stem, now)) * sinf((float)azimuth), 0}};
     if (stem->internodes > 0) {
         site.rotation = turn; // internodes have the stem's frame
     } else {
@@ -121,9 +125,10 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
         .is_multiplied = true,
         .order = (uint16_t)MIN(level->order[branching->row] + 1, UINT16_MAX),
         .x = (float)branching->at,
-        .parent_length = (float)(stem->length / branching->base.scale),
+        .parent_length = (float)(stem->length / stem->reach / branching->base.scale),
         .parent_radius = (float)(radius / branching->base.scale),
         .stretch = (float)crown_at(branching),
+        .age = (float)age,
         .axis = FR_NONE,
     };
 }

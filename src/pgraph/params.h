@@ -7,8 +7,22 @@
 
 #include "frond/param.h"
 
-/// What every component has: where it is moved to, when it is made, what it looks like.
-#define FR_BASIC_PARAMS(X)                                                                         \
+/// When it lives, how it grows and which of its material's colours it has. Times are years of its
+/// own clock, which begins at its birth; `birth` and `time_scale` are of the clock around it.
+#define FR_LIFE_PARAMS(X)                                                                          \
+    X(NUMBER, birth, "0", -1000000, 1000000, "a", "",                                              \
+      "when it comes into being: age of what it grows on")                                         \
+    X(NUMBER, lifetime, "0", 0, 1000000, "a", "",                                                  \
+      "how long it lives, with all that follows; 0: as long as what it grows on")                  \
+    X(NUMBER, time_scale, "1", 0.000001, 1000000, "", "", "how fast its own clock runs")           \
+    X(NUMBER, growth, "0", 0, 1000000, "a", "", "age at which it has its size; 0: from the first") \
+    X(CURVE, growth_curve, "ramp", 0, 0, "", "", "part of its size over the part of that time")    \
+    X(NUMBER, chance, "1", 0, 1, "", "",                                                           \
+      "probability that it is there, with all that follows; falling in autumn: leaves fall")       \
+    X(NUMBER, ramp_at, "= season", 0, 1, "", "", "where on the ramp of its material its colour is")
+
+/// Where a component is moved to, when it is made, what it looks like.
+#define FR_PLAIN_PARAMS(X)                                                                         \
     X(SWITCH, enabled, "yes", 0, 1, "", "", "made at all; if not, all that follows is left out")   \
     X(NUMBER, translate_x, "0", -10000, 10000, "m", "", "moved along its x axis, to the left")     \
     X(NUMBER, translate_y, "0", -10000, 10000, "m", "", "moved along its y axis, to the up side")  \
@@ -27,6 +41,9 @@
     X(TEXT, only, "all", 0, 0, "", "",                                                             \
       "iterations it is made for: all, odd, even, first, last, 2,13, !2,13, 0..4, %3=1")           \
     X(TEXT, material, "", 0, 0, "", "", "id of the material; empty: as what it grows on")
+
+/// What every component has.
+#define FR_BASIC_PARAMS(X) FR_PLAIN_PARAMS(X) FR_LIFE_PARAMS(X)
 
 /// The stem of Horn and Tree.
 #define FR_STEM_PARAMS(X)                                                                          \
@@ -175,12 +192,13 @@ typedef struct FrLeafParams {
     FR_LEAF_PARAMS(FR_PARAM_FIELD)
 } FrLeafParams;
 
-/// Index of each row in its table: the purpose of its random draws.
+/// Index of each row in its table; fr_purpose() makes of it the purpose of its random draws.
 #define FR_BASIC_ID(kind, field, ...) FR_BASIC_##field,
 #define FR_STEM_ID(kind, field, ...) FR_STEM_##field,
 #define FR_TREE_ID(kind, field, ...) FR_TREE_##field,
 #define FR_LEAF_ID(kind, field, ...) FR_LEAF_##field,
 enum { FR_BASIC_PARAMS(FR_BASIC_ID) FR_BASIC_COUNT };
+enum { FR_PLAIN_COUNT = FR_BASIC_birth };
 enum { FR_STEM_BEFORE = FR_BASIC_COUNT - 1, FR_STEM_PARAMS(FR_STEM_ID) FR_STEM_COUNT };
 enum { FR_TREE_BEFORE = FR_STEM_COUNT - 1, FR_BRANCHING_PARAMS(FR_TREE_ID) FR_TREE_COUNT };
 enum { FR_LEAF_BEFORE = FR_BASIC_COUNT - 1, FR_LEAF_PARAMS(FR_LEAF_ID) FR_LEAF_COUNT };
@@ -188,6 +206,16 @@ enum { FR_LEAF_BEFORE = FR_BASIC_COUNT - 1, FR_LEAF_PARAMS(FR_LEAF_ID) FR_LEAF_C
 #undef FR_STEM_ID
 #undef FR_TREE_ID
 #undef FR_LEAF_ID
+
+enum { FR_PURPOSE_LATER = 1 << 16 };
+
+/// The purpose of a parameter's draws. The rows of life came after all others and are counted
+/// behind them, so that they changed no plant there was.
+static inline uint32_t fr_purpose(uint32_t parameter) {
+    return parameter < FR_PLAIN_COUNT   ? parameter
+           : parameter < FR_BASIC_COUNT ? parameter + FR_PURPOSE_LATER
+                                        : parameter - (FR_BASIC_COUNT - FR_PLAIN_COUNT);
+}
 
 // The values of the CHOICE rows, in their order.
 enum { FR_COURSE_GROWN, FR_COURSE_PATH, FR_COURSE_STEPS };

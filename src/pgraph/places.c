@@ -34,7 +34,8 @@ double fr_density_place(const FrDensity *density, double start, double end, doub
 double fr_place_at(const FrPlaces *places, uint32_t k) {
     double shift = 0;
     if (places->irregularity > 0) {
-        shift = 0.5 * places->irregularity * fr_random_signed(places->key, FR_TREE_regularity, k);
+        shift = 0.5 * places->irregularity *
+                fr_random_signed(places->key, fr_purpose(FR_TREE_regularity), k);
     }
     if (places->pitch > 0) {
         double at = places->start + ((double)k + shift) * places->pitch;

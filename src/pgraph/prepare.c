@@ -3,6 +3,8 @@
 #include "pgraph/along.h"
 #include "pgraph/choice.h"
 #include "pgraph/global.h"
+#include "pgraph/life.h"
+#include "pgraph/ramp.h"
 #include "pgraph/revolved.h"
 
 #include <math.h>
@@ -29,13 +31,13 @@ static bool depends_on_place(const FrNumber *number) {
     return false;
 }
 
-static void note_variation(FrPrepared *made, const FrParamTable *table) {
+static void note_variation(FrPrepared *made, const FrParamTable *table, bool has_ramps) {
     for (size_t row = 0; row < table->count; row++) {
-        if (table->rows[row].kind == FR_PARAM_NUMBER) {
+        if (table->rows[row].kind == FR_PARAM_NUMBER && (has_ramps || row != FR_BASIC_ramp_at)) {
             const FrNumber *number =
                 (const FrNumber *)((const char *)made->params + table->rows[row].offset);
             made->varies |= !number->is_constant;
-            made->uses_height |= fr_number_uses(number, FR_VAR_height);
+            made->uses_place |= fr_uses_place(number);
         }
     }
     const FrBasicParams *basic = made->params;
@@ -332,7 +334,7 @@ static void prepare_graft(FrPrepared *made, const FrPgraph *graph, uint32_t comp
     for (guint k = 0; k < made->defines->len; k++) {
         const FrNumber *number = &g_array_index(made->defines, FrGraftDefine, k).number;
         made->varies |= !number->is_constant;
-        made->uses_height |= fr_number_uses(number, FR_VAR_height);
+        made->uses_place |= fr_uses_place(number);
     }
     GString *symbols = g_string_new(NULL);
     for (uint32_t k = 0; k < graph->links->len; k++) {
@@ -364,8 +366,9 @@ static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t compon
         made->material =
             fr_plant_add_material(plant, g_ptr_array_index(graph->materials, material));
     }
-    note_variation(made, fr_pgraph_table(prototype->kind));
+    note_variation(made, fr_pgraph_table(prototype->kind), fr_has_ramps(graph));
     note_number(made);
+    fr_prepare_life(made);
     switch (prototype->kind) {
     case FR_COMPONENT_SIMPLE: {
         const FrSimpleParams *simple = prototype->params;

@@ -24,7 +24,9 @@ typedef struct FrPrepared {
     uint64_t key_word; ///< of its id and seed
     uint32_t material; ///< FR_NONE: inherited
     bool varies;       ///< any parameter is not constant
-    bool uses_height;  ///< … and depends on the height above the ground
+    bool uses_place;   ///< … and depends on where in the plant it is
+    bool is_timed;     ///< may be absent: has a birth, a lifetime, a clock, a chance of its own
+    bool grows;
     bool is_unmoved;   ///< its own translate and rotate are constantly nothing
     bool is_stem;      ///< horn or tree
     bool is_string;    ///< … made of objects
@@ -67,6 +69,11 @@ bool fr_leaf_is_along(const FrLeafParams *leaf);
 /// Adds what does, of the instance or variant whose variables are set, to its blade.
 void fr_leaf_along(FrBlade *blade, const FrLeafParams *leaf, FrEvaluator *evaluator,
                    FrPlant *plant);
+/// Whether a number depends on where in the plant it is.
+static inline bool fr_uses_place(const FrNumber *number) {
+    return fr_number_uses(number, FR_VAR_height) || fr_number_uses(number, FR_VAR_px) ||
+           fr_number_uses(number, FR_VAR_py) || fr_number_uses(number, FR_VAR_pz);
+}
 /// The key of a leaf's variant.
 FrKey fr_variant_key(const FrPgraph *graph, const FrPrepared *prepared, uint32_t variant);
 

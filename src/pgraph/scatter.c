@@ -60,7 +60,7 @@ void fr_make_scatter(const FrExpansion *expansion, uint32_t row, FrEvaluator *ev
     double(*points)[2] = g_malloc_n(spread.count, sizeof *points);
     fr_bluenoise(points, spread.count, (FrStrewnForm)params->surface,
                  widest > 0 ? fmin(radius, inner) / widest : 0, candidates,
-                 fr_key_child(expansion->level.key[row], FR_SCATTER_surface));
+                 fr_key_child(expansion->level.key[row], fr_purpose(FR_SCATTER_surface)));
     widest *= spread.centre.scale;
     versors upright = to_upright(&spread, 1 - params->align);
 #define FR_GET(field) fr_value(place, &params->field, FR_SCATTER_##field)

@@ -69,6 +69,7 @@ void fr_spread_write(FrSpread *spread, uint32_t i, FrPose site) {
         .i = i,
         .n = spread->count,
         .is_multiplied = true,
+        .age = level->age[spread->row],
         .order = (uint16_t)MIN(level->order[spread->row] + 1, UINT16_MAX),
         .x = level->x[spread->row],
         .parent_length = level->parent_length[spread->row],

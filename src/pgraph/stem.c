@@ -3,6 +3,7 @@
 
 #include "pgraph/along.h"
 #include "pgraph/fork.h"
+#include "pgraph/life.h"
 
 #include <math.h>
 
@@ -24,6 +25,7 @@ enum { INTERNODES_OF_FLARE = 4, MOST_FOR_FLARE = 32 };
 // A place nearer to the tip than this stands on it.
 #define AT_TIP 1e-6
 #define LONGEST 1e9 // m
+#define SHORTEST_REACH 1e-6
 
 static uint32_t clamp_count(double count) {
     return count >= (double)(UINT32_MAX - 1) ? UINT32_MAX - 1 : count > 0 ? (uint32_t)count : 0;
@@ -196,17 +198,62 @@ static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase bas
 // What is left of a broken stem is as if it went on to where it was.
 static void measure_break(FrStem *stem, FrEvaluator *evaluator) {
     const FrStemParams *params = stem->prepared->params;
-    stem->whole = 1;
+    stem->whole = stem->slim = 1;
     if (params->course != FR_COURSE_GROWN) {
         return;
     }
     double chance = fr_value(evaluator, &params->break_chance, FR_STEM_break_chance);
-    if (chance > 0 && fr_random(stem->key, FR_STEM_break_chance, 1) < chance) {
-        stem->whole = fr_value(evaluator, &params->break_at, FR_STEM_break_at);
+    if (chance > 0 && fr_random(stem->key, fr_purpose(FR_STEM_break_chance), 1) < chance) {
+        stem->whole = stem->slim = fr_value(evaluator, &params->break_at, FR_STEM_break_at);
         stem->length *= stem->whole;
         stem->twist *= stem->whole;
         stem->gnarl_frequency *= stem->whole;
     }
+}
+
+// What has grown up to now is as if all were there; only its thickness is that of a younger stem.
+// Places are parts of what will be there.
+static void measure_growth(FrStem *stem, FrEvaluator *evaluator) {
+    if (!stem->prepared->grows) {
+        return;
+    }
+    const FrBasicParams *basic = stem->prepared->params;
+    double grown = fr_growth_now(stem->prepared, evaluator);
+    stem->growth_time = fr_value(evaluator, &basic->growth, FR_BASIC_growth);
+    stem->radius *= grown;
+    stem->radius_unit *= grown;
+    if (((const FrStemParams *)stem->prepared->params)->course == FR_COURSE_STEPS) {
+        stem->step_length *= grown;
+        stem->length *= grown;
+        return; // in all its parts at once
+    }
+    stem->reach = fmax(SHORTEST_REACH, fmin(grown / stem->whole, 1)); // a break is not there yet
+    stem->slim = fmin(stem->whole / fmax(grown, SHORTEST_REACH), 1);
+    stem->length *= stem->reach;
+    stem->twist *= stem->reach;
+    stem->gnarl_frequency *= stem->reach;
+    stem->whole *= stem->reach;
+    if (stem->limbs != NULL) {
+        fr_stem_grow_limbs(stem);
+    }
+    if (stem->gaps > 0) {
+        uint32_t each = stem->internodes / stem->gaps, gaps = 1;
+        while (gaps < stem->gaps && fr_place_at(&stem->places, gaps - 1) < stem->reach) {
+            gaps++;
+        }
+        stem->gaps = gaps;
+        stem->internodes = each * gaps;
+    }
+}
+
+double fr_stem_age_at(const FrStem *stem, double age, double at) {
+    if (stem->growth_time <= 0) {
+        return age;
+    }
+    const FrBasicParams *basic = stem->prepared->params;
+    double part = at * stem->whole / stem->reach; // of all that might be there
+    double since = age - stem->growth_time * fr_growth_when(basic->growth_curve, part);
+    return at <= stem->reach ? fmax(since, 0) : -1;
 }
 
 FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrStemBase base) {
@@ -221,6 +268,7 @@ FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrSte
         .limb_count = 1,
         .axes = 1,
         .tips = 1,
+        .reach = 1,
     };
     measure_numbers(&stem, evaluator, base);
     measure_break(&stem, evaluator);
@@ -244,6 +292,7 @@ FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrSte
     if (stem.forks > 0) {
         fr_stem_fork(&stem, evaluator);
     }
+    measure_growth(&stem, evaluator);
     return stem;
 }
 
@@ -256,12 +305,12 @@ double fr_stem_radius(const FrStem *stem, double at) {
     if (params->course == FR_COURSE_STEPS) {
         radius = thick * fmin(pow(stem->step_scale, at * stem->internodes), 1e6);
     } else if (params->profile != NULL) {
-        radius = thick * fr_curve_eval(params->profile, at * stem->whole);
+        radius = thick * fr_curve_eval(params->profile, at * stem->slim);
     } else {
-        radius = thick * (1 - stem->taper * at * stem->whole);
+        radius = thick * (1 - stem->taper * at * stem->slim);
     }
-    if (stem->flare > 0 && at * stem->whole < params->flare_height) {
-        double above = 1 - at * stem->whole / params->flare_height;
+    if (stem->flare > 0 && at * stem->slim < params->flare_height) {
+        double above = 1 - at * stem->slim / params->flare_height;
         radius += stem->radius * stem->flare * above * above * above;
     }
     return fmax(radius, stem->min_radius);
@@ -274,8 +323,8 @@ double fr_stem_flatness(const FrStem *stem, double at) {
 
 // The stretch between two places that bend the stem.
 static void gap_ends(const FrStem *stem, uint32_t gap, double ends[2]) {
-    ends[0] = gap > 0 ? fr_place_at(&stem->places, gap - 1) : 0;
-    ends[1] = gap + 1 < stem->gaps ? fr_place_at(&stem->places, gap) : 1;
+    ends[0] = gap > 0 ? fr_place_at(&stem->places, gap - 1) / stem->reach : 0;
+    ends[1] = gap + 1 < stem->gaps ? fr_place_at(&stem->places, gap) / stem->reach : 1;
 }
 
 double fr_stem_node_end(const FrStem *stem, uint32_t k) {
@@ -317,7 +366,7 @@ uint32_t fr_limb_node_of(const FrStem *stem, const FrLimb *limb, double at, uint
     if (stem->gaps > 0) {
         uint32_t each = stem->internodes / stem->gaps;
         *back = 0;
-        return (place + 1) * each - 1;
+        return MIN((place + 1) * each, stem->internodes) - 1;
     }
     double along = (at - limb->start) / (limb->end - limb->start) * limb->internodes;
     double k = ceil(along - 1e-9) - 1;

@@ -21,6 +21,7 @@ typedef struct FrStemBase {
 /// A stretch of a stem that forks: between two forks, or a fork and an end.
 typedef struct FrLimb {
     double start, end;     ///< along the stem; an end of 1 is a tip
+    double span;           ///< between them when all has grown
     uint32_t before;       ///< limb it grows from, FR_NONE
     uint32_t axis;         ///< which of the stem's axes it is on
     bool begins_axis;      ///< … as its first
@@ -40,11 +41,14 @@ typedef struct FrStem {
     const FrPrepared *prepared;
     FrEvaluator *evaluator; ///< has the instance's variables, for what differs along the stem
     uint32_t internodes;
-    double length; ///< m
-    double radius; ///< m, at the base, without flare
+    double length;      ///< m
+    double radius;      ///< m, at the base, without flare
     double radius_unit; ///< m of radius 1
     double taper, min_radius, flatness, flare;
-    double whole; ///< part of the stem that is there; less than 1 where it is broken off
+    double whole; ///< part of the stem that is there; less than 1 where it is broken off or grows
+    double slim;  ///< part of its profile that is there; less than 1 where it is broken off
+    double reach; ///< how much of what will be there has grown; places are parts of that
+    double growth_time;                              ///< years it grows for
     double curvature, twist, gnarl, gnarl_frequency; ///< radians; gnarls over the length
     double deviation;                                ///< radians; then places bend the stem
     uint32_t gaps; ///< stretches between places where it bends; 0: evenly divided
@@ -65,6 +69,9 @@ typedef struct FrStem {
 /// Measures the stem of the instance whose variables are set; to be cleared.
 FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrStemBase base);
 void fr_stem_clear(FrStem *stem);
+/// Age of what stands at a place of the stem, whose own age is given: it is born when the tip comes
+/// there; less than 0 before.
+double fr_stem_age_at(const FrStem *stem, double age, double at);
 /// Radius at `at`, 0 at the base to 1 at the tip, m.
 double fr_stem_radius(const FrStem *stem, double at);
 /// Thickness along y over that along x at `at`.

@@ -78,7 +78,7 @@ static double bend_up_to(const FrStem *stem, const Walk *walk, double at) {
 
 // Two octaves of noise, in radians. Both begin at 0, so a stem sets out as it was placed.
 static double gnarl_at(const FrStem *stem, FrKey limb, uint64_t side, double at) {
-    FrKey key = fr_key_child(fr_key_child(limb, FR_STEM_gnarl), side);
+    FrKey key = fr_key_child(fr_key_child(limb, fr_purpose(FR_STEM_gnarl)), side);
     double x = at * stem->gnarl_frequency;
     double gnarl =
         fr_is_along(stem, FR_ALONG_GNARL) ? fr_along_at(stem, FR_ALONG_GNARL, at) : stem->gnarl;
@@ -218,7 +218,7 @@ static void turn_aside(const FrStem *stem, const FrLimb *limb, uint32_t k, doubl
                        double *y) {
     *x = *y = 0;
     if (limb->turn != 0) {
-        double part = (k == 0) - limb->straightness * step / (limb->end - limb->start);
+        double part = (k == 0) - limb->straightness * step / limb->span;
         *x = part * limb->turn_x;
         *y = part * limb->turn_y;
     }
@@ -269,8 +269,7 @@ static versors grow_steps(Growth *growth, uint32_t first, versors start) {
     double length = stem->step_length;
     for (uint32_t k = 0; k < stem->internodes; k++) {
         versors turn = k > 0 ? stem->step_turn : fr_frame_step(start, stem->step_chord);
-        write_node(growth, first + k, turn, length,
-                   fr_stem_radius(stem, fr_stem_node_end(stem, k)),
+        write_node(growth, first + k, turn, length, fr_stem_radius(stem, fr_stem_node_end(stem, k)),
                    fr_stem_flatness(stem, fr_stem_node_end(stem, k)));
         length = fmin(length * stem->step_scale, 1e6);
     }
@@ -280,6 +279,12 @@ static versors grow_steps(Growth *growth, uint32_t first, versors start) {
     return fr_frame_step(stem->step_turn, back);
 }
 
+// A point of the polyline, `at` of it counted in its pieces.
+static vec3s point_of(const vec3s *points, uint32_t pieces, double at) {
+    uint32_t k = (uint32_t)fmin(floor(at), pieces - 1);
+    return glms_vec3_lerp(points[k], points[k + 1], (float)(at - k));
+}
+
 static versors grow_path(Growth *growth, uint32_t first, versors start) {
     const FrStem *stem = growth->stem;
     const vec3s *points = (const vec3s *)(const void *)stem->prepared->path->data;
@@ -287,6 +292,10 @@ static versors grow_path(Growth *growth, uint32_t first, versors start) {
     double each = 1.0 / stem->internodes;
     for (uint32_t k = 0; k < stem->internodes; k++) {
         vec3s chord = glms_vec3_sub(points[k + 1], points[k]);
+        if (stem->reach < 1) {
+            chord = glms_vec3_sub(point_of(points, stem->internodes, (k + 1) * stem->reach),
+                                  point_of(points, stem->internodes, k * stem->reach));
+        }
         float length = glms_vec3_norm(chord);
         versors turn = identity;
         if (length > 0) {

@@ -37,12 +37,16 @@ void fr_twins_of_roots(const FrExpansion *expansion) {
 void fr_twin_measure(const FrExpansion *expansion, uint32_t row) {
     const FrLevel *level = &expansion->level, *last = level_before(expansion);
     uint32_t twin = level->twin[row];
+    level->age[row] = last->age[twin];
+    level->is_absent[row] = last->is_absent[twin];
+    level->ramp[row] = last->ramp[twin];
     level->places[row] = last->places[twin];
     level->tips[row] = last->tips[twin];
     level->node_count[row] = last->node_count[twin + 1] - last->node_count[twin];
     level->axis_count[row] = last->axis_count[twin + 1] - last->axis_count[twin];
     level->organ_count[row] = last->organ_count[twin + 1] - last->organ_count[twin];
-    level->global_count[row] = fr_is_global(prepared_of(expansion, row)->kind);
+    level->global_count[row] =
+        !level->is_absent[row] && fr_is_global(prepared_of(expansion, row)->kind);
 }
 
 uint32_t fr_twin_children(const FrExpansion *expansion, uint32_t row) {

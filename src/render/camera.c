@@ -48,6 +48,9 @@ static void grow_box(void *data, vec3s point) {
 }
 
 static Box bounds(const FrWorld *world) {
+    if (world->is_framed) {
+        return (Box){world->frame_min, world->frame_max};
+    }
     Box box = {{{INFINITY, INFINITY, INFINITY}}, {{-INFINITY, -INFINITY, -INFINITY}}};
     for_each_point(world, grow_box, &box);
     if (!(box.min.x <= box.max.x)) {
@@ -94,7 +97,9 @@ static vec3s stand_back(const FrWorld *world, const FrCamera *camera, const Box 
         .top = -INFINITY,
         .bottom = -INFINITY,
     };
-    for_each_point(world, touch_planes, &extremes);
+    if (!world->is_framed) {
+        for_each_point(world, touch_planes, &extremes);
+    }
     if (isinf(extremes.right)) {
         touch_box(&extremes, box);
     }

@@ -153,6 +153,11 @@ FrStatus fr_world_of_scene(const FrScene *scene, const FrSkinParams *skin, const
     FrWorld *made = fr_world_new(sky, ground);
     find_origin(made, scene);
     made->lamps = fr_lamps_new(scene->surroundings, made->origin);
+    made->is_framed = scene->is_framed;
+    for (int k = 0; k < 3; k++) {
+        made->frame_min.raw[k] = (float)(scene->frame_min[k] - made->origin[k]);
+        made->frame_max.raw[k] = (float)(scene->frame_max[k] - made->origin[k]);
+    }
     if (ground != NULL) {
         ground->origin[0] = made->origin[0];
         ground->origin[1] = made->origin[1];

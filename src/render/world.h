@@ -34,6 +34,8 @@ typedef struct FrWorld {
     FrLampSet lamps;  ///< owned
     vec3s white;      ///< irradiance of white things, roughly: what exposure and colours go by
     double origin[3];
+    bool is_framed; ///< views show this box, not what there is
+    vec3s frame_min, frame_max;
 } FrWorld;
 
 /// What a ray met.

@@ -68,7 +68,7 @@ static FrStatus make_all(const FrDocument *document, const FrVaried *varied, con
 }
 
 FrStatus fr_scene_collect(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
-                          uint32_t count, const FrContext *context, FrScene **scene) {
+                          double time, uint32_t count, const FrContext *context, FrScene **scene) {
     *scene = NULL;
     FrStatus status = fr_limit_check(count, context->limits.plants, "plants", "the collection",
                                      definition->span, context->diags);
@@ -76,7 +76,7 @@ FrStatus fr_scene_collect(const FrDocument *document, const FrPlantDef *definiti
         return status;
     }
     FrVaried *varied;
-    status = fr_varied_new(document, definition, context, &varied);
+    status = fr_varied_new(document, definition, time, context, &varied);
     if (status == FR_OK) {
         uint64_t first = seed < 0 ? definition->seed : (uint64_t)seed;
         status = make_all(document, varied, definition->id, first, count, context, scene);

@@ -1,6 +1,8 @@
 /// One plant built by the engine of its definition.
 #include "scene/find.h"
 
+#include <math.h>
+
 static FrStatus grow_lsystem(const FrPlantDef *definition, int64_t seed, const FrContext *context,
                              FrScenePlant *made) {
     FrLsettings settings = fr_lmodel_settings(definition->lsystem);
@@ -41,10 +43,12 @@ static FrStatus grow_graft(void *data, const FrGraftWish *wish, const FrContext 
 }
 
 static FrStatus grow_pgraph(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
-                            const FrContext *context, FrScenePlant *made, FrPgraphCounts *counts) {
-    FrPgraph *reseeded = seed < 0 || (uint64_t)seed == definition->seed
+                            double time, const FrContext *context, FrScenePlant *made,
+                            FrPgraphCounts *counts) {
+    uint64_t own_seed = seed < 0 ? definition->seed : (uint64_t)seed;
+    FrPgraph *reseeded = own_seed == definition->seed && isnan(time)
                              ? NULL
-                             : fr_document_reseed(document, definition, (uint64_t)seed);
+                             : fr_document_reseed(document, definition, own_seed, time);
     const FrPgraph *graph = reseeded == NULL ? definition->pgraph : reseeded;
     FrGraft graft = {(FrDocument *)document, grow_graft}; // which only reads it
     FrStatus status = fr_pgraph_build_grafted(graph, &graft, context, &made->plant, counts);
@@ -61,7 +65,8 @@ static FrStatus grow_pgraph(const FrDocument *document, const FrPlantDef *defini
 }
 
 FrStatus fr_scene_grow(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
-                       const FrContext *context, FrScenePlant *plant, FrPgraphCounts *counts) {
+                       double time, const FrContext *context, FrScenePlant *plant,
+                       FrPgraphCounts *counts) {
     FR_ASSERT(definition->kind != FR_PLANT_VARIED);
     *plant = (FrScenePlant){0};
     if (definition->kind == FR_PLANT_LSYSTEM) {
@@ -71,8 +76,8 @@ FrStatus fr_scene_grow(const FrDocument *document, const FrPlantDef *definition,
         return grow_lsystem(definition, seed, context, plant);
     }
     FrPgraphCounts own = {0};
-    FrStatus status =
-        grow_pgraph(document, definition, seed, context, plant, counts == NULL ? &own : counts);
+    FrStatus status = grow_pgraph(document, definition, seed, time, context, plant,
+                                  counts == NULL ? &own : counts);
     g_free(own.by_component);
     return status;
 }

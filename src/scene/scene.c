@@ -4,6 +4,7 @@
 #include "scene/rebuild.h"
 #include "scene/varied.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef struct Build {
@@ -14,6 +15,7 @@ typedef struct Build {
     GHashTable *built;       ///< "id seed" → index into plants + 1
     GHashTable *varied;      ///< FrPlantDef * → FrVaried *
     int64_t seed;            ///< < 0: as the document says
+    double time;             ///< of all clocks; NAN: as the document says
     uint64_t bytes;
     FrGrowing *growing;
     FrSceneParts *parts; ///< NULL
@@ -58,7 +60,8 @@ static int64_t seed_of(const Build *build, int64_t own_seed) {
 static FrStatus vary_plant(Build *build, const FrPlantDef *definition, uint64_t seed) {
     FrVaried *varied = g_hash_table_lookup(build->varied, definition);
     if (varied == NULL) {
-        FrStatus status = fr_varied_new(build->document, definition, build->context, &varied);
+        FrStatus status =
+            fr_varied_new(build->document, definition, build->time, build->context, &varied);
         if (status != FR_OK) {
             return status;
         }
@@ -137,7 +140,8 @@ static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t 
     FrStatus status =
         can_be_rebuilt(build, definition)
             ? rebuild_plant(build, definition, seed, key, &made)
-            : fr_scene_grow(build->document, definition, seed, build->context, &made, NULL);
+            : fr_scene_grow(build->document, definition, seed, build->time, build->context, &made,
+                            NULL);
     if (status == FR_OK) {
         warn_of_nothing(build, definition, made.plant);
         g_array_append_val(build->scene->plants, made);
@@ -287,13 +291,8 @@ static void forget_built(const Build *build) {
     }
 }
 
-FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContext *context,
-                        FrScene **scene) {
-    return fr_scene_build_parts(document, seed, context, NULL, scene);
-}
-
-FrStatus fr_scene_build_parts(const FrDocument *document, int64_t seed, const FrContext *context,
-                              FrSceneParts *parts, FrScene **scene) {
+static FrStatus build_scene(const FrDocument *document, int64_t seed, double time,
+                            const FrContext *context, FrSceneParts *parts, FrScene **scene) {
     *scene = NULL;
     Build build = {.document = document,
                    .context = context,
@@ -302,6 +301,7 @@ FrStatus fr_scene_build_parts(const FrDocument *document, int64_t seed, const Fr
                    .built = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
                    .varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied),
                    .seed = seed,
+                   .time = time,
                    .growing = fr_growing_new(),
                    .parts = parts};
     const GPtrArray *plants = fr_document_plants(document);
@@ -327,6 +327,21 @@ FrStatus fr_scene_build_parts(const FrDocument *document, int64_t seed, const Fr
     }
     *scene = build.scene;
     return FR_OK;
+}
+
+FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContext *context,
+                        FrScene **scene) {
+    return build_scene(document, seed, NAN, context, NULL, scene);
+}
+
+FrStatus fr_scene_build_parts(const FrDocument *document, int64_t seed, const FrContext *context,
+                              FrSceneParts *parts, FrScene **scene) {
+    return build_scene(document, seed, NAN, context, parts, scene);
+}
+
+FrStatus fr_scene_build_at(const FrDocument *document, int64_t seed, double time,
+                           const FrContext *context, FrScene **scene) {
+    return build_scene(document, seed, time, context, NULL, scene);
 }
 
 FrDigest fr_scene_digest(const FrScene *scene) {

@@ -3,7 +3,9 @@
 
 #include "scene/find.h"
 
-FrStatus fr_varied_new(const FrDocument *document, const FrPlantDef *definition,
+#include <math.h>
+
+FrStatus fr_varied_new(const FrDocument *document, const FrPlantDef *definition, double time,
                        const FrContext *context, FrVaried **varied) {
     *varied = NULL;
     FrVaried *made = g_new0(FrVaried, 1);
@@ -19,7 +21,7 @@ FrStatus fr_varied_new(const FrDocument *document, const FrPlantDef *definition,
         fr_params_clear(fr_vary_table(), &params);
     }
     FrScenePlant built;
-    FrStatus status = fr_scene_grow(document, base, -1, context, &built, NULL);
+    FrStatus status = fr_scene_grow(document, base, -1, time, context, &built, NULL);
     made->base = built.plant;
     made->instances = built.instances;
     made->by_component = built.by_component;

@@ -16,7 +16,7 @@ typedef struct FrVaried {
 /// Builds the base of `definition` with the base's own seed. For a plant that is no variation this
 /// is the plant itself, with the default variation.
 FR_MUST_USE FrStatus fr_varied_new(const FrDocument *document, const FrPlantDef *definition,
-                                   const FrContext *context, FrVaried **varied);
+                                   double time, const FrContext *context, FrVaried **varied);
 void fr_varied_free(FrVaried *varied);
 /// The instance of a seed with its counts.
 FrScenePlant fr_varied_instance(const FrVaried *varied, uint64_t seed);

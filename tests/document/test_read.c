@@ -101,7 +101,7 @@ static const Wrong wrongs[] = {
     {SLIDERS("<slider id='seed'/>"), "name-taken", 2, 27},
     {SLIDERS("<slider id='bell'/>"), "name-taken", 2, 27},
     {SLIDERS("<slider id='a-b'/>"), "name-taken", 2, 27},
-    {SLIDERS("<slider id='r'/>"), "duplicate-id", 2, 27},
+    {SLIDERS("<slider id='h'/>"), "duplicate-id", 2, 27},
     {SLIDERS("<slider id='a'/>\n<slider id='a'/>"), "duplicate-id", 3, 13},
     {SLIDERS("<slider id='a' min='2'/>"), "slider-range", 2, 35},
     {SLIDERS("<slider id='a' initial='2'/>"), "out-of-range", 2, 39},

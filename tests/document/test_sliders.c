@@ -3,6 +3,8 @@
 
 #include "frond/param.h"
 
+#include <math.h>
+
 /// A plant of a trunk with leaves; `sliders` stand before its graph.
 static Parsed parse_plant(const char *sliders, const char *trunk) {
     char *inner = g_strdup_printf("<plant id='p'>%s<pgraph><camera id='root'/><tree id='trunk' %s/>"
@@ -98,7 +100,7 @@ static void test_set(void) {
     g_assert_cmpfloat(slider->initial, ==, 1);
     g_assert_cmpuint(leaves_of(plant_of(&parsed)->pgraph), ==, 25);
     // Another individual of the plant goes by the same sliders.
-    FrPgraph *other = fr_document_reseed(parsed.document, plant_of(&parsed), 7);
+    FrPgraph *other = fr_document_reseed(parsed.document, plant_of(&parsed), 7, NAN);
     g_assert_cmpuint(leaves_of(other), ==, 25);
     fr_pgraph_free(other);
     // Out of its range nothing changes.

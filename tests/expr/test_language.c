@@ -108,7 +108,7 @@ static void test_page(void) {
     page.vars.value[FR_VAR_n] = 13;
     page.vars.value[FR_VAR_x] = 0.5;
     page.vars.value[FR_VAR_depth] = 2;
-    page.vars.value[FR_VAR_time] = 2.5;
+    page.vars.value[FR_VAR_age] = 2.5;
     char **lines = g_strsplit(text, "\n", -1);
     const char *kind = NULL;
     for (char **line = lines; *line != NULL; line++) {

@@ -251,11 +251,11 @@ static void test_keys(void) {
     FrNumber number = parse("keys 0,10 5,80 6,80 ~ 0 | depth 0,1 1,0.5", 1, 0, 90);
     static const double frames[][2] = {{-1, 10}, {0, 10}, {5, 80}, {5.5, 80}, {99, 80}};
     for (size_t k = 0; k < G_N_ELEMENTS(frames); k++) {
-        g_assert_cmpfloat_with_epsilon(over(&number, FR_VAR_time, frames[k][0]), frames[k][1],
+        g_assert_cmpfloat_with_epsilon(over(&number, FR_VAR_age, frames[k][0]), frames[k][1],
                                        1e-12);
     }
     g_assert_cmpfloat_with_epsilon(over(&number, FR_VAR_depth, 1), 5, 1e-12);
-    g_assert_true(fr_number_uses(&number, FR_VAR_time));
+    g_assert_true(fr_number_uses(&number, FR_VAR_age));
     fr_number_clear(&number);
 }
 

@@ -62,7 +62,7 @@ static inline FrPgraph *small_graph(const Shipped *shipped) {
     uint64_t instances = UINT64_MAX;
     for (double factor = 1; instances > 250 && factor > 0.003; factor *= 0.4) {
         fr_pgraph_free(graph);
-        graph = fr_document_reseed(shipped->document, shipped->plant, shipped->plant->seed);
+        graph = fr_document_reseed(shipped->document, shipped->plant, shipped->plant->seed, NAN);
         thin_out(graph, factor);
         FrContext context = fr_context_default();
         FrPgraphCounts counts = {0};

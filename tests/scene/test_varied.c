@@ -1,6 +1,7 @@
 /// Varied plants in documents: read, placed, collected.
 #include "frond/scene.h"
 
+#include <math.h>
 #include <string.h>
 
 #define TREE                                                                                       \
@@ -79,7 +80,7 @@ static void another_seed(void) {
     FrContext context = fr_context_default();
     FrScene *all;
     const FrPlantDef *shore = g_ptr_array_index(fr_document_plants(document), 0);
-    g_assert_cmpint(fr_scene_collect(document, shore, -1, 3, &context, &all), ==, FR_OK);
+    g_assert_cmpint(fr_scene_collect(document, shore, -1, NAN, 3, &context, &all), ==, FR_OK);
     g_assert_cmpuint(all->stands->len, ==, 3);
     g_assert_cmpuint(fr_plant_digest(plant_at(all, 0)), ==, fr_plant_digest(plant_at(one, 0)));
     g_assert_cmpuint(fr_plant_digest(plant_at(all, 1)), ==, fr_plant_digest(plant_at(other, 0)));
@@ -88,7 +89,8 @@ static void another_seed(void) {
     fr_scene_free(single);
     fr_scene_free(all);
     context.limits.plants = 2;
-    g_assert_cmpint(fr_scene_collect(document, shore, -1, 3, &context, &all), ==, FR_ERR_LIMIT);
+    g_assert_cmpint(fr_scene_collect(document, shore, -1, NAN, 3, &context, &all), ==,
+                    FR_ERR_LIMIT);
     g_assert_null(all);
     fr_scene_free(one);
     fr_scene_free(other);
