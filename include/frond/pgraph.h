@@ -66,6 +66,36 @@ FR_API FrComponentKind fr_pgraph_kind(const FrPgraph *graph, uint32_t component)
 FR_API const char *fr_pgraph_id(const FrPgraph *graph, uint32_t component);
 /// The parameter struct that fr_pgraph_table() describes, to be set with fr_params_set().
 FR_API void *fr_pgraph_params(FrPgraph *graph, uint32_t component);
+/// A change of one instance, found by its path in the i-tree: the ids of the components on the way
+/// to it, with the iteration of what is multiplied: trunk/branch[3]/leaf[0]. A camera is left out.
+#define FR_EDIT_PARAMS(X)                                                                          \
+    X(TEXT, at, "", 0, 0, "", "", "path of the instance: trunk/branch[3]/leaf[0]")                 \
+    X(SWITCH, prune, "no", 0, 1, "", "", "not made, with all that follows on it")                  \
+    X(SWITCH, hide, "no", 0, 1, "", "", "made but not shown; what follows on it is")               \
+    X(REAL, rotate_x, "0", -3600, 3600, "deg", "", "turned further about its x axis")              \
+    X(REAL, rotate_y, "0", -3600, 3600, "deg", "", "turned then about its y axis")                 \
+    X(REAL, rotate_z, "0", -3600, 3600, "deg", "", "turned last about its z axis")                 \
+    X(REAL, bend, "0", -720, 720, "deg", "",                                                       \
+      "a stem: further turn from base to tip, towards its y axis")                                 \
+    X(REAL, bend_aside, "0", -720, 720, "deg", "", "a stem: the same towards its x axis")          \
+    X(REAL, scale, "1", 0.000001, 1000000, "", "", "size of it and of all that follows")           \
+    X(TEXT, replace, "", 0, 0, "", "", "id of the component that is made in its place")            \
+    X(INTEGER, redraw, "0", 0, 4294967295.0, "", "",                                               \
+      "another number draws all that is random in it, and in what follows, anew")                  \
+    X(TEXT, axis, "", 0, 0, "", "",                                                                \
+      "a stem: points x,y,z x,y,z that it runs along, in m of its own coordinates")
+
+typedef struct FrEditParams {
+    FR_EDIT_PARAMS(FR_PARAM_FIELD)
+} FrEditParams;
+
+FR_API const FrParamTable *fr_edit_table(void);
+/// Adds an edit; all components have been added. What has no place now is kept: a build warns of
+/// it, and makes the edit again as soon as its instance is there.
+FR_API FrStatus fr_pgraph_edit(FrPgraph *graph, const FrEditParams *params, FrSpan span,
+                               FrDiags *diags);
+FR_API uint32_t fr_pgraph_edit_count(const FrPgraph *graph);
+FR_API const FrEditParams *fr_pgraph_edit_at(const FrPgraph *graph, uint32_t edit);
 FR_API FrStatus fr_pgraph_link(FrPgraph *graph, uint32_t from, uint32_t to, FrLinkKind kind,
                                FrSpan span, FrDiags *diags);
 /// The `material` parameters of components name these. Takes a reference.
@@ -107,6 +137,8 @@ typedef struct FrPgraphCounts {
     uint64_t *by_component; ///< owned by the caller's FrPgraphCounts; free with g_free()
     uint32_t *parent;       ///< i-tree: parent instance of each, FR_NONE for roots; only on request
     uint32_t *component;    ///< i-tree: component of each; only on request
+    uint64_t *place;        ///< i-tree: for fr_pgraph_path(); only on request
+    uint8_t *edits; ///< by edit: 1 if it has a place; NULL without edits; free with g_free()
 } FrPgraphCounts;
 
 /// Expands and builds. The number of instances, nodes and organs of each generation is counted
@@ -143,3 +175,5 @@ FR_API uint64_t fr_pgraph_build_taken_over(const FrPgraphBuild *build);
 /// Whether nodes, axes and organs of both are the same arrays; their shapes and materials may still
 /// be others.
 FR_API bool fr_pgraph_build_shares(const FrPgraphBuild *build, const FrPgraphBuild *other);
+/// The path of an instance of the i-tree, as edits name it; to be freed with g_free().
+FR_API char *fr_pgraph_path(const FrPgraph *graph, const FrPgraphCounts *counts, uint32_t instance);

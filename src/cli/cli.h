@@ -44,6 +44,7 @@ typedef struct CliOptions {
     char *view;                    ///< of an L-system, NULL: the .v beside it if there is one
     bool prints_count;             ///< derive --print count
     bool prints_steps;             ///< derive --print steps
+    char *paths;                   ///< component whose instances info lists; NULL
     bool is_json, is_diag_json, is_quiet, is_verbose, wants_help, wants_version;
 } CliOptions;
 

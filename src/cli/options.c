@@ -199,6 +199,10 @@ static bool take_plant(CliOptions *options, const char *value) {
     return replace_text(&options->plant, value);
 }
 
+static bool take_paths(CliOptions *options, const char *value) {
+    return replace_text(&options->paths, value);
+}
+
 static bool take_camera(CliOptions *options, const char *value) {
     return replace_text(&options->camera, value);
 }
@@ -254,6 +258,7 @@ static const OptionRow rows[] = {
      take_nurbs},
     {"time", 0, "YEARS", CLI_BUILD | CLI_RENDER | CLI_INFO | CLI_VARY,
      "what the clocks of all plants show", take_time},
+    {"paths", 0, "COMPONENT", CLI_INFO, "list the paths of its instances, for edits", take_paths},
     {"frames", 0, "A..B", CLI_RENDER, "a picture for each frame of a growth sequence", take_frames},
     {"steps", 0, "N", READING, "steps of an L-system", take_steps},
     {"view", 0, "FILE", READING, "the view (.v) of an L-system", take_view},
@@ -298,6 +303,7 @@ void cli_options_clear(CliOptions *options) {
     g_free(options->preset);
     g_free(options->plant);
     g_free(options->view);
+    g_free(options->paths);
 }
 
 /// `name` is without its dashes. No name is near a single letter.

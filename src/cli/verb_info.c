@@ -20,6 +20,8 @@ static void clear_grown(Grown *grown) {
     g_free(grown->counts.by_component);
     g_free(grown->counts.parent);
     g_free(grown->counts.component);
+    g_free(grown->counts.place);
+    g_free(grown->counts.edits);
     g_free(grown->chains);
 }
 
@@ -116,6 +118,54 @@ static void print_drawn(const FrLdrawn *drawn) {
     g_free(segments);
 }
 
+// What an edit does: its attributes that are not neutral, as documents write them.
+static char *edit_text(const FrEditParams *edit) {
+    GString *text = g_string_new(NULL);
+    const struct {
+        const char *name;
+        bool is_set;
+    } words[] = {
+        {"prune", edit->prune},
+        {"hide", edit->hide},
+        {"rotate", edit->rotate_x != 0 || edit->rotate_y != 0 || edit->rotate_z != 0},
+        {"bend", edit->bend != 0 || edit->bend_aside != 0},
+        {"scale", edit->scale != 1},
+        {"replace", edit->replace != NULL && *edit->replace != '\0'},
+        {"redraw", edit->redraw != 0},
+        {"axis", edit->axis != NULL && *edit->axis != '\0'},
+    };
+    for (size_t k = 0; k < G_N_ELEMENTS(words); k++) {
+        if (words[k].is_set) {
+            g_string_append_printf(text, "%s%s", text->len > 0 ? " " : "", words[k].name);
+        }
+    }
+    return g_string_free(text, FALSE);
+}
+
+static void print_edits(const Grown *grown) {
+    const FrPgraph *graph = grown->definition->pgraph;
+    for (uint32_t k = 0; k < fr_pgraph_edit_count(graph); k++) {
+        const FrEditParams *edit = fr_pgraph_edit_at(graph, k);
+        char *what = edit_text(edit);
+        printf("  edit %-40s %s%s\n", edit->at, what,
+               grown->counts.edits[k] ? "" : "  (has no place now)");
+        g_free(what);
+    }
+}
+
+static json_t *edits_json(const Grown *grown) {
+    const FrPgraph *graph = grown->definition->pgraph;
+    json_t *edits = json_array();
+    for (uint32_t k = 0; k < fr_pgraph_edit_count(graph); k++) {
+        const FrEditParams *edit = fr_pgraph_edit_at(graph, k);
+        char *what = edit_text(edit);
+        json_array_append_new(edits, json_pack("{s:s, s:s, s:b}", "at", edit->at, "does", what,
+                                               "has_place", grown->counts.edits[k] != 0));
+        g_free(what);
+    }
+    return edits;
+}
+
 static void print_plant(const Grown *grown) {
     bool is_lsystem = grown->definition->kind == FR_PLANT_LSYSTEM;
     char *made = cli_count_text(is_lsystem ? grown->modules : grown->counts.instances);
@@ -134,6 +184,7 @@ static void print_plant(const Grown *grown) {
         print_drawn(&grown->drawn);
     } else {
         print_components(grown);
+        print_edits(grown);
     }
     print_sliders(grown->definition);
 }
@@ -171,6 +222,7 @@ static json_t *plant_json(const Grown *grown) {
     } else {
         json_object_set_new(plant, "instances", json_integer((json_int_t)grown->counts.instances));
         json_object_set_new(plant, "components", components_json(grown));
+        json_object_set_new(plant, "edits", edits_json(grown));
     }
     json_object_set_new(plant, "sliders", sliders_json(grown->definition));
     return plant;
@@ -204,14 +256,50 @@ static FrStatus describe_varied(CliSession *session, const FrDocument *document,
     return FR_OK;
 }
 
+/// The component whose paths are asked for, FR_NONE if this plant has none of that name.
+static uint32_t asked_component(const CliSession *session, const Grown *grown) {
+    bool has_tree = session->options->paths != NULL && grown->counts.component != NULL;
+    return has_tree ? fr_pgraph_find(grown->definition->pgraph, session->options->paths) : FR_NONE;
+}
+
+static void print_paths(const CliSession *session, const Grown *grown) {
+    uint32_t component = asked_component(session, grown);
+    for (uint32_t k = 0; k < grown->counts.instances && component != FR_NONE; k++) {
+        if (grown->counts.component[k] == component) {
+            char *path = fr_pgraph_path(grown->definition->pgraph, &grown->counts, k);
+            printf("  %s\n", path);
+            g_free(path);
+        }
+    }
+}
+
+static json_t *paths_json(const CliSession *session, const Grown *grown) {
+    uint32_t component = asked_component(session, grown);
+    json_t *paths = json_array();
+    for (uint32_t k = 0; k < grown->counts.instances && component != FR_NONE; k++) {
+        if (grown->counts.component[k] == component) {
+            char *path = fr_pgraph_path(grown->definition->pgraph, &grown->counts, k);
+            json_array_append_new(paths, json_string(path));
+            g_free(path);
+        }
+    }
+    return paths;
+}
+
 static FrStatus describe_grown(CliSession *session, const FrDocument *document,
                                const FrPlantDef *definition, json_t *plants) {
     Grown grown;
     FrStatus status = grow(session, document, definition, &grown);
     if (status == FR_OK && plants != NULL) {
-        json_array_append_new(plants, plant_json(&grown));
+        json_t *plant = plant_json(&grown);
+        json_t *paths = session->options->paths != NULL ? paths_json(session, &grown) : NULL;
+        if (paths != NULL) {
+            json_object_set_new(plant, "paths", paths);
+        }
+        json_array_append_new(plants, plant);
     } else if (status == FR_OK) {
         print_plant(&grown);
+        print_paths(session, &grown);
     }
     clear_grown(&grown);
     return status;
@@ -291,6 +379,27 @@ static FrStatus describe_as_json(CliSession *session, const FrDocument *document
     return status;
 }
 
+/// False after a message if no plant has the component that --paths names.
+static bool check_paths(const CliOptions *options, const FrDocument *document) {
+    const GPtrArray *plants = fr_document_plants(document);
+    GPtrArray *names = g_ptr_array_new();
+    bool is_known = options->paths == NULL;
+    for (guint i = 0; i < plants->len && !is_known; i++) {
+        const FrPgraph *graph = ((const FrPlantDef *)g_ptr_array_index(plants, i))->pgraph;
+        is_known = fr_pgraph_find(graph, options->paths) != FR_NONE;
+        for (uint32_t c = 0; c < fr_pgraph_count(graph); c++) {
+            g_ptr_array_add(names, (char *)fr_pgraph_id(graph, c));
+        }
+    }
+    if (!is_known) {
+        char *hint = cli_hint(options->paths, (const char *const *)names->pdata, names->len);
+        cli_message("there is no component '%s' in the document%s", options->paths, hint);
+        g_free(hint);
+    }
+    g_ptr_array_unref(names);
+    return is_known;
+}
+
 FrStatus cli_info(CliSession *session) {
     const char *path = g_ptr_array_index(session->options->files, 0);
     if (cli_is_model(path)) {
@@ -298,6 +407,9 @@ FrStatus cli_info(CliSession *session) {
     }
     FrDocument *document;
     FrStatus status = cli_session_read(session, path, &document);
+    if (status == FR_OK && !check_paths(session->options, document)) {
+        status = FR_ERR_USAGE;
+    }
     if (status == FR_OK) {
         status = session->options->is_json ? describe_as_json(session, document)
                                            : describe_as_text(session, document);

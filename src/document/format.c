@@ -88,7 +88,8 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
     [FR_ELEMENT_PLANT] = {.name = "plant",
                           .table = &plant_table,
                           .has_id = true,
-                          .children = SET(SLIDER) | SET(PGRAPH) | SET(LSYSTEM) | SET(VARY)},
+                          .children =
+                              SET(SLIDER) | SET(PGRAPH) | SET(EDITS) | SET(LSYSTEM) | SET(VARY)},
     [FR_ELEMENT_SLIDER] = {.name = "slider", .table = &slider_table, .has_id = true},
     [FR_ELEMENT_PGRAPH] = {.name = "pgraph",
                            .meaning = "linked components that are expanded to a plant "
@@ -104,6 +105,11 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                            .table = &define_table,
                            .has_id = true,
                            .required = "value"},
+    [FR_ELEMENT_EDITS] = {.name = "edits",
+                          .meaning = "changes of single instances of the plant's <pgraph>, by hand",
+                          .is_once = true,
+                          .children = SET(EDIT)},
+    [FR_ELEMENT_EDIT] = {.name = "edit", .required = "at"},
     [FR_ELEMENT_VARY] = {.name = "vary",
                          .is_once = true,
                          .required = "base",
@@ -136,6 +142,8 @@ FrElement fr_element(FrElementId id) {
         element.table = fr_material_table();
     } else if (id == FR_ELEMENT_LSYSTEM) {
         element.table = fr_lsystem_table();
+    } else if (id == FR_ELEMENT_EDIT) {
+        element.table = fr_edit_table();
     } else if (id == FR_ELEMENT_VARY) {
         element.table = fr_vary_table();
     } else if (id == FR_ELEMENT_STROKE) {

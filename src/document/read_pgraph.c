@@ -170,6 +170,7 @@ void fr_read_pgraph(FrReader *reader, uint32_t node, FrPgraph *definition) {
     reader->status = FR_OK;
     fr_read_check_children(reader, node, FR_ELEMENT_PGRAPH);
     read_parts(&graph, node);
+    fr_read_edits(reader, reader->tree->nodes[node].parent, definition);
     if (reader->status == FR_OK && fr_pgraph_count(definition) == 0) {
         fr_read_error(reader, "no-component", reader->tree->nodes[node].name,
                       "this <pgraph> has no component, so its plant is empty");

@@ -24,6 +24,11 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
             plant->kind = engines[i].kind;
         }
     }
+    uint32_t edits = fr_read_first(reader, node, FR_ELEMENT_EDITS);
+    if (edits != FR_NONE && plant->kind != FR_PLANT_PGRAPH) {
+        fr_read_error(reader, "misplaced-element", reader->tree->nodes[edits].name,
+                      "only plants of a <pgraph> have <edits>");
+    }
     if (definition == FR_NONE) {
         fr_read_error(reader, "missing-element", reader->tree->nodes[node].name,
                       "the plant '%s' has no <pgraph>, no <lsystem> and no <vary>", plant->id);

@@ -49,6 +49,8 @@ FrLmodel *fr_read_lsystem(FrReader *reader, uint32_t node);
 char *fr_read_define(FrReader *reader, uint32_t node, FrNumber *value);
 /// Reports grafts of plants that cannot be grafted, and numbers those do not know.
 void fr_read_check_grafts(FrReader *reader);
+/// Reads the `<edits>` of a plant whose graph has been read.
+void fr_read_edits(FrReader *reader, uint32_t plant, FrPgraph *graph);
 /// Reads a `<vary>`; NULL after an error that leaves nothing of it.
 FrVary *fr_read_vary(FrReader *reader, uint32_t node);
 /// Reports varied plants whose base is no other plant.

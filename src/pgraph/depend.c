@@ -1,6 +1,7 @@
 #include "pgraph/depend.h"
 
 #include "pgraph/choice.h"
+#include "pgraph/edit.h"
 #include "pgraph/ramp.h"
 
 #include <string.h>
@@ -33,6 +34,7 @@ FrDigest fr_depend_inputs(const FrPgraph *graph) {
     FrDigest digest = fr_digest(0, &graph->seed, sizeof graph->seed);
     bool has_ramps = fr_has_ramps(graph);
     digest = fr_digest(digest, &has_ramps, sizeof has_ramps);
+    digest = fr_edits_digest(digest, graph);
     return fr_digest(digest, &graph->state, sizeof graph->state);
 }
 

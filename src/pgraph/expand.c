@@ -8,11 +8,13 @@
 // children, and too large a plant is refused before it has memory.
 #include "pgraph/expand.h"
 
+#include "pgraph/edit.h"
 #include "pgraph/global.h"
 #include "pgraph/kept.h"
 #include "pgraph/ramp.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { GRAIN = 256 };
 
@@ -107,7 +109,7 @@ static FrStatus check_scopes(const FrBuild *build) {
                                               build->context->limits.scopes, "scopes", deepest);
 }
 
-static void append_rows(FrExpansion *expansion, const FrLevelSums *sums) {
+static void append_rows(FrExpansion *expansion, const FrLevelSums *sums, bool wants_places) {
     FrLevel *level = &expansion->level;
     FrPlant *plant = expansion->plant;
     uint32_t first_axis = fr_plant_append_axes(plant, (uint32_t)sums->axes);
@@ -120,6 +122,8 @@ static void append_rows(FrExpansion *expansion, const FrLevelSums *sums) {
     counts_to_indices(level->child_count, level->count, 0);
     fr_level_init(&expansion->next, (uint32_t)sums->children);
     expansion->next.first = level->first + level->count;
+    g_free(expansion->places);
+    expansion->places = wants_places ? g_new(uint64_t, MAX(sums->children, 1)) : NULL;
 }
 
 // Shapes that depend on where their leaf is, in the order of the leaves.
@@ -172,6 +176,7 @@ static void record_tree(FrBuild *build, uint64_t first) {
     FrPgraphCounts *counts = build->counts;
     counts->parent = g_renew(uint32_t, counts->parent, build->instances);
     counts->component = g_renew(uint32_t, counts->component, build->instances);
+    counts->place = g_renew(uint64_t, counts->place, build->instances);
     uint32_t *numbers = g_new(uint32_t, MAX(level->count, 1));
     for (uint32_t row = 0; row < level->count; row++) {
         if (level->is_absent[row]) {
@@ -180,10 +185,24 @@ static void record_tree(FrBuild *build, uint64_t first) {
         uint32_t parent = level->parent[row];
         counts->parent[first] = parent != FR_NONE ? build->numbers[parent] : FR_NONE;
         counts->component[first] = fr_instance_stage(&build->expansion, row)->component;
+        counts->place[first] = build->expansion.places != NULL ? build->expansion.places[row] : 0;
         numbers[row] = (uint32_t)first++;
     }
     g_free(build->numbers);
     build->numbers = numbers;
+}
+
+// Which edits have a place. What is not there has one if it was pruned.
+static void note_edits(FrBuild *build) {
+    const FrExpansion *expansion = &build->expansion;
+    const FrLevel *level = &expansion->level;
+    for (uint32_t row = 0; row < level->count && expansion->edits != NULL; row++) {
+        FrEditState state = level->edit[row];
+        uint32_t edit = state != FR_EDIT_NOWHERE ? fr_edits_at(expansion->edits, state) : FR_NONE;
+        if (edit != FR_NONE) {
+            build->has_place[edit] |= level->clock[row] >= 0;
+        }
+    }
 }
 
 static void record_level(FrBuild *build) {
@@ -193,6 +212,7 @@ static void record_level(FrBuild *build) {
         build->instances += !level->is_absent[row];
         build->taken_over += !level->is_absent[row] && level->twin[row] != FR_NONE;
     }
+    note_edits(build);
     FrPgraphCounts *counts = build->counts;
     if (counts == NULL) {
         return;
@@ -231,7 +251,7 @@ static FrStatus expand_level(FrBuild *build) {
     }
     sums.children = sum_children(&expansion->level);
     bool has_blades = needs_blades(expansion);
-    append_rows(expansion, &sums);
+    append_rows(expansion, &sums, build->counts != NULL && build->counts->parent != NULL);
     expansion->blades = has_blades ? g_new(FrShape, sums.organs) : NULL;
     for_level(build, make_range);
     status = fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : find_shapes(build);
@@ -268,6 +288,15 @@ static void begin_level(FrBuild *build) {
         level->deformer[row] = level->field[row] = FR_NONE;
         level->scopes[row] = 0;
         level->step[row] = 0;
+        bool is_camera = fr_stage_prepared(expansion, stage)->kind == FR_COMPONENT_CAMERA;
+        uint32_t component = g_array_index(unrolled->stages, FrStage, stage).component;
+        level->edit[row] = fr_edits_begin(expansion->edits, component, is_camera);
+        uint32_t edit = level->edit[row] != FR_EDIT_NOWHERE
+                            ? fr_edits_at(expansion->edits, level->edit[row])
+                            : FR_NONE;
+        if (edit != FR_NONE) {
+            fr_edit_apply(expansion, level, row, edit);
+        }
     }
     fr_twins_of_roots(expansion);
 }
@@ -391,6 +420,23 @@ static FrStatus expand_or_share(FrBuild *build) {
     return status;
 }
 
+// Warns of edits without a place, and hands on which have one. Rows that are shared were looked at
+// by the build that made them.
+static void finish_edits(FrBuild *build) {
+    const FrPgraph *graph = build->expansion.graph;
+    uint32_t count = fr_pgraph_edit_count(graph);
+    if (count == 0) {
+        return;
+    }
+    if (build->made != NULL && build->last != NULL && build->last->rows == build->made->rows) {
+        memcpy(build->has_place, build->last->counts.edits, count);
+    }
+    fr_edits_report(graph, build->has_place, build->context->diags);
+    if (build->counts != NULL) {
+        build->counts->edits = g_memdup2(build->has_place, count);
+    }
+}
+
 static FrStatus prepare_and_expand(FrBuild *build, const FrRecursions *recursions) {
     FrExpansion *expansion = &build->expansion;
     const FrContext *context = build->context;
@@ -404,10 +450,19 @@ static FrStatus prepare_and_expand(FrBuild *build, const FrRecursions *recursion
                                  expansion->faults[0], context);
     expansion->prepared = prepared;
     expansion->ramps = fr_ramps_add(expansion->plant);
+    FrEdits *edits = fr_edits_new(expansion->graph);
+    expansion->edits = edits;
+    build->has_place = g_new0(uint8_t, MAX(fr_pgraph_edit_count(expansion->graph), 1));
     status = status == FR_OK ? expand_or_share(build) : status;
     if (status == FR_OK) {
         fr_ramps_drop_unused(expansion->plant, expansion->ramps);
     }
+    if (status == FR_OK) {
+        finish_edits(build);
+    }
+    g_free(build->has_place);
+    g_free(expansion->places);
+    fr_edits_free(edits);
     g_free(expansion->ramps);
     report_faults(build, workers);
     for (int worker = 0; worker < workers; worker++) {
@@ -427,6 +482,7 @@ static void begin_counts(FrPgraphCounts *counts, uint32_t components) {
     if (wants_tree) {
         counts->parent = g_new(uint32_t, 1);
         counts->component = g_new(uint32_t, 1);
+        counts->place = g_new(uint64_t, 1);
     }
 }
 

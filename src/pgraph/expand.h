@@ -13,6 +13,7 @@ typedef struct FrBuild {
     uint64_t instances;        ///< of all levels so far
     uint64_t considered;       ///< with those that flags left out
     uint64_t taken_over;       ///< from the last build
+    uint8_t *has_place;        ///< by edit; owned
     uint32_t *numbers;         ///< in the i-tree, of the rows of the level before; owned; NULL
     FrPgraphBuild *made;       ///< what is kept of it; NULL: only the plant
     const FrPgraphBuild *last; ///< NULL

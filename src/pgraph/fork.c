@@ -85,6 +85,7 @@ static void add_arms(Forking *forking, uint32_t from, uint32_t *axes) {
             .forks = before.forks + 1,
             .axis = arm == 0 ? before.axis : (*axes)++,
             .begins_axis = arm > 0,
+            .arms = (uint16_t)(before.arms | arm << 2 * MIN(before.forks, 6u)),
             .key = arm == 0 ? before.key
                             : fr_key_child(fr_key_child(before.key, fr_purpose(FR_STEM_forks)),
                                            before.forks * 4ull + arm),
@@ -138,7 +139,7 @@ static void settle(FrStem *stem) {
 
 void fr_stem_fork(FrStem *stem, FrEvaluator *evaluator) {
     const FrStemParams *params = stem->prepared->params;
-    if (!(stem->forks > 0) || params->course != FR_COURSE_GROWN || !(stem->length > 0)) {
+    if (!(stem->forks > 0) || stem->course != FR_COURSE_GROWN || !(stem->length > 0)) {
         return;
     }
     double start = fr_value(evaluator, &params->fork_start, FR_STEM_fork_start);

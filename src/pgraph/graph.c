@@ -1,4 +1,4 @@
-#include "pgraph/graph.h"
+#include "pgraph/edit.h"
 
 #include <string.h>
 
@@ -47,6 +47,8 @@ FrPgraph *fr_pgraph_new(const char *name, uint64_t seed) {
     graph->links = g_array_new(FALSE, FALSE, sizeof(FrPgraphLink));
     g_array_set_clear_func(graph->links, link_clear);
     graph->materials = g_ptr_array_new_with_free_func(material_unref);
+    graph->edits = g_array_new(FALSE, FALSE, sizeof(FrGraphEdit));
+    g_array_set_clear_func(graph->edits, fr_graph_edit_clear);
     graph->by_id = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
     graph->material_names = g_hash_table_new(g_str_hash, g_str_equal);
     graph->link_keys = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
@@ -66,6 +68,7 @@ void fr_pgraph_free(FrPgraph *graph) {
     g_hash_table_unref(graph->by_id);
     g_ptr_array_unref(graph->materials);
     g_array_unref(graph->links);
+    g_array_unref(graph->edits);
     g_array_unref(graph->prototypes);
     g_free(graph->name);
     g_free(graph);

@@ -35,6 +35,7 @@ struct FrPgraph {
     GArray *prototypes;         ///< FrPrototype
     GArray *links;              ///< FrPgraphLink, as they were added
     GPtrArray *materials;       ///< FrMaterial *, owned references
+    GArray *edits;              ///< FrGraphEdit
     GHashTable *by_id;          ///< id → index + 1
     GHashTable *material_names; ///< name, borrowed → index + 1
     GHashTable *link_keys;      ///< links there are, as int64_t

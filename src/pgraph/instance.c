@@ -1,5 +1,6 @@
 #include "pgraph/instance.h"
 
+#include "pgraph/edit.h"
 #include "pgraph/global.h"
 #include "pgraph/life.h"
 
@@ -15,6 +16,8 @@ static const versors identity = {{0, 0, 0, 1}};
 #define LARGEST 1e9
 // Positions too: nothing is farther from its bearer than this, in metres.
 #define FARTHEST 1e9f
+// Draws anew have keys that no path has.
+#define REDRAWN (UINT64_C(1) << 40)
 
 static double share(uint32_t i, uint32_t n) {
     return n > 1 ? (double)i / (double)(n - 1) : 0;
@@ -113,6 +116,30 @@ FrPose fr_pose_moved(FrPose pose, vec3s by, versors turn) {
     return pose;
 }
 
+const FrGraphEdit *fr_instance_edit(const FrExpansion *expansion, uint32_t row) {
+    FrEditState state = expansion->level.edit[row];
+    uint32_t edit = state != FR_EDIT_NOWHERE ? fr_edits_at(expansion->edits, state) : FR_NONE;
+    return edit != FR_NONE ? fr_graph_edit(expansion->graph, edit) : NULL;
+}
+
+// A pose turned and scaled by hand. What is no stem bends at its base.
+static FrPose edited(const FrExpansion *expansion, uint32_t row, FrPose pose) {
+    const FrGraphEdit *edit = fr_instance_edit(expansion, row);
+    if (edit == NULL) {
+        return pose;
+    }
+    const FrEditParams *by = &edit->params;
+    bool is_stem = fr_stage_prepared(expansion, expansion->level.stage[row])->is_stem;
+    double x = by->rotate_x - (is_stem ? 0 : by->bend);
+    double y = by->rotate_y + (is_stem ? 0 : by->bend_aside), z = by->rotate_z;
+    versors turn =
+        fr_frame_step(turn_about(2, z), fr_frame_step(turn_about(1, y), turn_about(0, x)));
+    pose.rotation = fr_frame_step(pose.rotation, turn);
+    pose.is_turned_or_moved |= x != 0 || y != 0 || z != 0;
+    pose.scale *= by->scale;
+    return pose;
+}
+
 FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
     const FrLevel *level = &expansion->level;
     const FrStage *stage = fr_instance_stage(expansion, row);
@@ -147,6 +174,9 @@ FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator 
     if (prepared->grows && !prepared->is_stem) {
         pose.scale *= fr_growth_now(prepared, evaluator);
     }
+    if (level->edit[row] != FR_EDIT_NOWHERE) {
+        pose = edited(expansion, row, pose);
+    }
     pose.scale = fmax(SMALLEST, fmin(pose.scale, LARGEST));
 #undef FR_GET
     return pose;
@@ -154,7 +184,11 @@ FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator 
 
 FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, double scale) {
     const FrLevel *level = &expansion->level;
+    const FrGraphEdit *edit = fr_instance_edit(expansion, row);
     return (FrStemBase){
+        .bend = edit != NULL ? edit->params.bend : 0,
+        .bend_aside = edit != NULL ? edit->params.bend_aside : 0,
+        .axis = edit != NULL ? edit->axis : NULL,
         .scale = scale,
         .parent_length = (double)level->parent_length[row],
         .parent_radius = (double)level->parent_radius[row],
@@ -184,6 +218,38 @@ uint32_t fr_instance_look(const FrExpansion *expansion, uint32_t row) {
     bool has_ramp =
         expansion->ramps != NULL && material != FR_NONE && expansion->ramps[material] != FR_NONE;
     return has_ramp ? expansion->ramps[material] + expansion->level.ramp[row] : material;
+}
+
+// Hands a child its place on the paths of edits, and does what makes it another.
+static void write_edit(const FrExpansion *expansion, uint32_t row, uint32_t component,
+                       const FrChild *child, uint32_t at) {
+    const FrLevel *level = &expansion->level;
+    const FrLevel *next = &expansion->next;
+    FrStep step = {
+        .component = component,
+        .iteration = child->i,
+        .is_multiplied = child->is_multiplied,
+        .is_global = fr_is_global(expansion->prepared[component].kind),
+        .arms = child->arms,
+    };
+    bool is_below_global = fr_is_global(fr_stage_prepared(expansion, level->stage[row])->kind);
+    next->edit[at] =
+        fr_edits_step(expansion->edits, level->edit[row], is_below_global, child->i, &step);
+    uint32_t edit = step.is_global || next->edit[at] == FR_EDIT_NOWHERE
+                        ? FR_NONE
+                        : fr_edits_at(expansion->edits, next->edit[at]);
+    if (edit != FR_NONE) {
+        fr_edit_apply(expansion, next, at, edit);
+    }
+}
+
+void fr_edit_apply(const FrExpansion *expansion, const FrLevel *level, uint32_t at, uint32_t edit) {
+    uint32_t stage = g_array_index(expansion->unrolled->replacements, uint32_t, edit);
+    int64_t redraw = fr_graph_edit(expansion->graph, edit)->params.redraw;
+    level->stage[at] = stage != FR_NONE ? stage : level->stage[at];
+    if (redraw != 0) {
+        level->key[at] = fr_key_child(level->key[at], REDRAWN + (uint64_t)redraw);
+    }
 }
 
 void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLink *link,
@@ -221,4 +287,12 @@ void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLin
     next->step[at] = level->step[row];
     next->axis[at] = child->axis;
     next->twin[at] = FR_NONE;
+    next->edit[at] = FR_EDIT_NOWHERE;
+    if (level->edit[row] != FR_EDIT_NOWHERE) {
+        write_edit(expansion, row, stage->component, child, at);
+    }
+    if (expansion->places != NULL) {
+        expansion->places[at] =
+            (uint64_t)child->i << 32 | (uint64_t)child->arms << 1 | child->is_multiplied;
+    }
 }

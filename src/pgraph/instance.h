@@ -21,7 +21,9 @@ typedef struct FrExpansion {
     uint32_t depth;       ///< of this level, from 0
     const struct FrTwins *twins;       ///< instances of the last build; NULL
     const struct FrGrafting *grafting; ///< what stands at this level's grafts
-    uint32_t *ramps;                   ///< of each material, see fr_ramps_add(); NULL: none has one
+    const struct FrEdits *edits;       ///< by hand; NULL: none
+    uint64_t *places; ///< of the next level, for fr_pgraph_path(); NULL: not asked for
+    uint32_t *ramps;  ///< of each material, see fr_ramps_add(); NULL: none has one
 } FrExpansion;
 
 /// Where and how large an instance is, its own transformation applied.
@@ -39,6 +41,7 @@ typedef struct FrChild {
     FrKey key; ///< of the place; the child's id is still to be hashed in
     uint32_t i, n;
     bool is_multiplied;
+    uint16_t arms; ///< of a stem that forks: which it is on, see edit.h
     uint8_t joint;
     uint16_t order;
     float x, parent_length, parent_radius, stretch;
@@ -60,6 +63,8 @@ static inline const FrPrepared *fr_stage_prepared(const FrExpansion *expansion, 
                 ->prepared[g_array_index(expansion->unrolled->stages, FrStage, stage).component];
 }
 
+/// The edit of the instance in that row, NULL if it has none.
+const struct FrGraphEdit *fr_instance_edit(const FrExpansion *expansion, uint32_t row);
 /// Sets the variables of the instance in that row.
 void fr_instance_enter(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// Sets the variables that are a place in the plant.
@@ -82,6 +87,8 @@ void fr_place_enter(FrEvaluator *place, const FrEvaluator *parent, const FrLevel
 void fr_child_write(const FrExpansion *expansion, uint32_t row, const FrStageLink *link,
                     const FrChild *child, uint32_t at);
 
+/// Lets the instance in row `at` of a level be another, as an edit says.
+void fr_edit_apply(const FrExpansion *expansion, const FrLevel *level, uint32_t at, uint32_t edit);
 /// Counts what the instance in `row` makes, except children that flags decide about.
 void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// Children that are made, by flags.

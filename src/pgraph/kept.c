@@ -88,6 +88,15 @@ static uint32_t *none_of(guint count) {
     return column;
 }
 
+static bool has_replacements(const FrUnrolled *unrolled) {
+    for (guint k = 0; k < unrolled->replacements->len; k++) {
+        if (g_array_index(unrolled->replacements, uint32_t, k) != FR_NONE) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void fr_kept_begin(FrPgraphBuild *made, const FrBuild *build, const FrPgraphBuild *last,
                    FrTwins *twins) {
     const FrExpansion *expansion = &build->expansion;
@@ -99,9 +108,10 @@ void fr_kept_begin(FrPgraphBuild *made, const FrBuild *build, const FrPgraphBuil
     made->has_own_shapes = fr_depend_has_own_shapes(expansion);
     made->stages = fr_depend_stages(expansion);
     *twins = (FrTwins){.last = last};
-    // Steps of ramps that nothing has are dropped, so that indices of materials do not last.
+    // Steps of ramps that nothing has are dropped, so that indices of materials do not last; and
+    // what replaces an instance by hand stands where no link leads to it.
     if (last == NULL || last->has_faults || last->inputs != made->inputs ||
-        expansion->ramps != NULL) {
+        expansion->ramps != NULL || has_replacements(unrolled)) {
         twins->last = NULL;
         return;
     }
@@ -192,6 +202,7 @@ void fr_pgraph_build_free(FrPgraphBuild *build) {
         fr_unrolled_clear(&build->unrolled);
     }
     g_free(build->counts.by_component);
+    g_free(build->counts.edits);
     g_free(build->stages);
     g_free(build);
 }

@@ -36,6 +36,7 @@ enum {
     X(float, parent_radius) /* the same, where it stands */                                        \
     X(float, stretch)       /* factor of its length, from its parent */                            \
     X(float, clock)         /* years of the clock around it; < 0: not yet there */                 \
+    X(uint32_t, edit)       /* where it stands on the paths of edits, see edit.h */                \
     X(uint32_t, material)   /* of the plant, FR_NONE */                                            \
     X(uint32_t, deformer)   /* scope it is in, of the plant; FR_NONE */                            \
     X(uint32_t, field)      /* field it is in; FR_NONE */                                          \

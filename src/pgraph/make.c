@@ -1,4 +1,5 @@
 // Making what an instance stands for: its axis, nodes, organs, and the rows of its children.
+#include "pgraph/edit.h"
 #include "pgraph/global.h"
 #include "pgraph/instance.h"
 
@@ -69,6 +70,12 @@ uint32_t fr_make_single_children(const FrExpansion *expansion, uint32_t row, FrC
     return at;
 }
 
+// By hand.
+static bool is_hidden(const FrExpansion *expansion, uint32_t row) {
+    const FrGraphEdit *edit = fr_instance_edit(expansion, row);
+    return edit != NULL && edit->params.hide;
+}
+
 uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t organ, FrPose pose,
                         uint32_t shape) {
     FrOrgans *organs = &expansion->plant->organs;
@@ -81,6 +88,9 @@ uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t org
     organs->component[organ] = fr_instance_stage(expansion, row)->component;
     organs->deformer[organ] = expansion->level.deformer[row];
     organs->path[organ] = expansion->level.key[row];
+    if (is_hidden(expansion, row)) {
+        organs->flags[organ] |= FR_HIDDEN;
+    }
     return organ;
 }
 
@@ -91,7 +101,7 @@ static void write_axis(const FrExpansion *expansion, uint32_t row, uint32_t axis
     axes->offset[axis] = pose.offset;
     axes->base_radius[axis] = (float)radius;
     axes->order[axis] = expansion->level.order[row];
-    axes->flags[axis] = flags;
+    axes->flags[axis] = is_hidden(expansion, row) ? flags | FR_HIDDEN : flags;
     axes->profile[axis] = prepared_of(expansion, row)->profile;
     axes->material[axis] = fr_instance_look(expansion, row);
     axes->component[axis] = fr_instance_stage(expansion, row)->component;
@@ -275,9 +285,8 @@ static void make_simple(const FrExpansion *expansion, uint32_t row, FrEvaluator 
 static void make_string(const FrExpansion *expansion, uint32_t row, const FrStem *stem, FrPose base,
                         versors tip) {
     const FrLevel *level = &expansion->level;
-    const FrStemParams *params = stem->prepared->params;
     uint32_t organ = level->organ_count[row], first = level->node_count[row];
-    bool is_stepped = params->course == FR_COURSE_STEPS;
+    bool is_stepped = stem->course == FR_COURSE_STEPS;
     if (is_stepped) {
         base.scale = fr_stem_radius(stem, 0);
         fr_write_organ(expansion, row, organ++, base, stem->prepared->shape);
@@ -310,10 +319,10 @@ static void begin_axis(const FrExpansion *expansion, uint32_t row, const FrStem 
     bool continues = is_base && level->joint[row] == FR_JOINT_TIP && !pose.is_turned_or_moved;
     unsigned flags = (continues ? FR_CONTINUES : 0u) | (is_base ? 0u : FR_FORK) |
                      (params->tip == FR_TIP_FLAT || stem->slim < 1 ? FR_CUT : 0u) |
-                     (params->course == FR_COURSE_STEPS ? FR_POINT_SETS : 0u) |
+                     (stem->course == FR_COURSE_STEPS ? FR_POINT_SETS : 0u) |
                      (params->primitive > FR_PRIMITIVE_AREA ? FR_HIDDEN : 0u);
-    if (is_base && params->course == FR_COURSE_PATH) {
-        vec3s start = g_array_index(stem->prepared->path, vec3s, 0);
+    if (is_base && stem->course == FR_COURSE_PATH) {
+        vec3s start = g_array_index(stem->path, vec3s, 0);
         pose = fr_pose_moved(pose, glms_vec3_scale(start, (float)pose.scale), identity);
     }
     write_axis(expansion, row, level->axis_count[row] + limb->axis, pose,
@@ -364,6 +373,7 @@ static void make_tips(const FrExpansion *expansion, uint32_t row, const FrStem *
         }
         FrChild child = fr_single_child(expansion, row, tips[l]);
         child.key = limb->axis > 0 ? limb->key : 0;
+        child.arms = limb->arms;
         child.joint = stem->internodes > 0 ? FR_JOINT_TIP : FR_JOINT_NONE;
         child.x = 1;
         child.parent_length = (float)(stem->length / stem->reach / tips[l].scale);

@@ -1,5 +1,6 @@
 // Counting what an instance makes before anything is made.
 #include "pgraph/choice.h"
+#include "pgraph/edit.h"
 #include "pgraph/global.h"
 #include "pgraph/graft.h"
 #include "pgraph/instance.h"
@@ -38,19 +39,24 @@ static void measure_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator
     const FrLevel *level = &expansion->level;
     FrStem stem = stem_of(expansion, row, evaluator);
     const FrPrepared *prepared = stem.prepared;
-    const FrStemParams *params = prepared->params;
     level->axis_count[row] = stem.internodes > 0 ? stem.axes : 0;
     level->node_count[row] = stem.internodes;
     level->tips[row] = stem.tips;
     if (prepared->is_string) {
         // Step by step, an object stands at either end of every step.
-        bool has_both_ends = params->course == FR_COURSE_STEPS;
+        bool has_both_ends = stem.course == FR_COURSE_STEPS;
         level->organ_count[row] = stem.internodes + has_both_ends;
     }
     if (prepared->bears) {
         level->places[row] = stem.limbs != NULL ? count_branches(&stem) : stem.places.branches;
     }
     fr_stem_clear(&stem);
+}
+
+// By hand.
+static bool is_pruned(const FrExpansion *expansion, uint32_t row) {
+    const FrGraphEdit *edit = fr_instance_edit(expansion, row);
+    return edit != NULL && edit->params.prune;
 }
 
 void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
@@ -62,7 +68,8 @@ void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator
     level->axis_count[row] = 0;
     level->organ_count[row] = 0;
     level->global_count[row] = 0;
-    level->is_absent[row] = !fr_instance_lives(expansion, row, evaluator);
+    level->is_absent[row] =
+        !fr_instance_lives(expansion, row, evaluator) || is_pruned(expansion, row);
     if (level->is_absent[row]) {
         return;
     }

@@ -123,6 +123,7 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
         .i = b,
         .n = places->branches,
         .is_multiplied = true,
+        .arms = branching->limb->arms,
         .order = (uint16_t)MIN(level->order[branching->row] + 1, UINT16_MAX),
         .x = (float)branching->at,
         .parent_length = (float)(stem->length / stem->reach / branching->base.scale),

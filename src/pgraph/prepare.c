@@ -2,6 +2,7 @@
 
 #include "pgraph/along.h"
 #include "pgraph/choice.h"
+#include "pgraph/edit.h"
 #include "pgraph/global.h"
 #include "pgraph/life.h"
 #include "pgraph/ramp.h"
@@ -181,14 +182,12 @@ GArray *fr_path_points(const char *path, const FrPrototype *prototype, FrDiags *
     return points;
 }
 
-// The ends of the internodes of a stem along its path: evenly spaced points of the spline.
-static GArray *sample_path(const FrPrototype *prototype) {
-    const FrStemParams *stem = prototype->params;
-    GArray *points = fr_path_points(stem->path, prototype, NULL);
-    FR_ASSERT(points != NULL);
+// Evenly spaced points of the spline through some: the ends of `segments` internodes, or of as many
+// as it needs. Takes the points.
+static GArray *sample_points(GArray *points, uint32_t segments) {
     FrPath *path = fr_path_new((const vec3s *)(void *)points->data, points->len);
-    uint32_t count = stem->segments > 0
-                         ? (uint32_t)stem->segments
+    uint32_t count = segments > 0
+                         ? segments
                          : MIN((points->len - 1) * INTERNODES_PER_SPAN, MOST_PATH_INTERNODES);
     g_array_set_size(points, count + 1);
     double length = path != NULL ? fr_path_length(path) : 0;
@@ -202,6 +201,20 @@ static GArray *sample_path(const FrPrototype *prototype) {
     }
     fr_path_unref(path);
     return points;
+}
+
+// The ends of the internodes of a stem along its path.
+static GArray *sample_path(const FrPrototype *prototype) {
+    const FrStemParams *stem = prototype->params;
+    GArray *points = fr_path_points(stem->path, prototype, NULL);
+    FR_ASSERT(points != NULL);
+    return sample_points(points, (uint32_t)stem->segments);
+}
+
+GArray *fr_drawn_axis(const char *text) {
+    static const FrPrototype nameless = {.id = ""};
+    GArray *points = fr_path_points(text, &nameless, NULL);
+    return points != NULL ? sample_points(points, 0) : NULL;
 }
 
 static FrCurve *crown_curve(int crown) {

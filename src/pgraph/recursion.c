@@ -2,6 +2,8 @@
 // SIAM Journal on Computing 1 (2), 1972; with a stack of its own, so that no graph is too deep.
 #include "pgraph/recursion.h"
 
+#include "pgraph/edit.h"
+
 typedef struct Search {
     FrRecursions *found;
     const FrPgraph *graph;
@@ -126,6 +128,12 @@ static void find_roots(FrRecursions *found, const FrPgraph *graph) {
 static void reach(FrRecursions *found, const FrPgraph *graph) {
     found->is_reached = g_new0(bool, fr_pgraph_count(graph));
     GArray *open = g_array_copy(found->roots);
+    for (uint32_t k = 0; k < graph->edits->len; k++) {
+        const FrGraphEdit *edit = fr_graph_edit(graph, k);
+        if (edit->replacement != FR_NONE) {
+            g_array_append_val(open, edit->replacement);
+        }
+    }
     for (uint32_t k = 0; k < open->len; k++) {
         found->is_reached[g_array_index(open, uint32_t, k)] = true;
     }

@@ -46,7 +46,7 @@ static uint32_t adaptive_internodes(const FrStem *stem) {
     double pull = size_of(stem, FR_ALONG_PHOTOTROPISM, stem->tropism.up) +
                   size_of(stem, FR_ALONG_GRAVITROPISM, stem->tropism.down) +
                   size_of(stem, FR_ALONG_PLAGIOTROPISM, stem->tropism.flat);
-    turn += PI * (1 - exp(-pull));
+    turn += PI * (1 - exp(-pull)) + fabs(stem->bend) + fabs(stem->bend_aside);
     double count = turn / BEND_PER_INTERNODE;
     if (turn > LEAST_BEND) {
         count = fmax(count, LEAST_INTERNODES_OF_BEND);
@@ -155,7 +155,7 @@ static void measure_steps(FrStem *stem, const FrStemParams *params, FrEvaluator 
 }
 
 static void measure_path(FrStem *stem) {
-    const GArray *path = stem->prepared->path;
+    const GArray *path = stem->path;
     const vec3s *points = (const vec3s *)(const void *)path->data;
     stem->internodes = path->len - 1;
     double length = 0;
@@ -189,7 +189,7 @@ static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase bas
     stem->tropism.down = FR_GET(gravitropism);
     stem->tropism.flat = FR_GET(plagiotropism);
     stem->forks = FR_GET(forks);
-    stem->deviation = stem->prepared->kind == FR_COMPONENT_TREE && params->course == FR_COURSE_GROWN
+    stem->deviation = stem->prepared->kind == FR_COMPONENT_TREE && stem->course == FR_COURSE_GROWN
                           ? FR_GET(deviation)
                           : 0;
 #undef FR_GET
@@ -199,7 +199,7 @@ static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase bas
 static void measure_break(FrStem *stem, FrEvaluator *evaluator) {
     const FrStemParams *params = stem->prepared->params;
     stem->whole = stem->slim = 1;
-    if (params->course != FR_COURSE_GROWN) {
+    if (stem->course != FR_COURSE_GROWN) {
         return;
     }
     double chance = fr_value(evaluator, &params->break_chance, FR_STEM_break_chance);
@@ -222,7 +222,7 @@ static void measure_growth(FrStem *stem, FrEvaluator *evaluator) {
     stem->growth_time = fr_value(evaluator, &basic->growth, FR_BASIC_growth);
     stem->radius *= grown;
     stem->radius_unit *= grown;
-    if (((const FrStemParams *)stem->prepared->params)->course == FR_COURSE_STEPS) {
+    if (stem->course == FR_COURSE_STEPS) {
         stem->step_length *= grown;
         stem->length *= grown;
         return; // in all its parts at once
@@ -269,12 +269,16 @@ FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrSte
         .axes = 1,
         .tips = 1,
         .reach = 1,
+        .course = base.axis != NULL ? FR_COURSE_PATH : params->course,
+        .path = base.axis != NULL ? base.axis : prepared->path,
+        .bend = base.bend,
+        .bend_aside = base.bend_aside,
     };
     measure_numbers(&stem, evaluator, base);
     measure_break(&stem, evaluator);
-    if (params->course == FR_COURSE_STEPS) {
+    if (stem.course == FR_COURSE_STEPS) {
         measure_steps(&stem, params, evaluator);
-    } else if (params->course == FR_COURSE_PATH) {
+    } else if (stem.course == FR_COURSE_PATH) {
         measure_path(&stem);
     } else {
         stem.internodes =
@@ -302,7 +306,7 @@ double fr_stem_radius(const FrStem *stem, double at) {
                        ? fr_along_at(stem, FR_ALONG_RADIUS, at) * stem->radius_unit
                        : stem->radius;
     double radius;
-    if (params->course == FR_COURSE_STEPS) {
+    if (stem->course == FR_COURSE_STEPS) {
         radius = thick * fmin(pow(stem->step_scale, at * stem->internodes), 1e6);
     } else if (params->profile != NULL) {
         radius = thick * fr_curve_eval(params->profile, at * stem->slim);

@@ -14,8 +14,10 @@ typedef struct FrStemBase {
     double parent_radius; ///< m at scale 1, where the stem is attached
     double stretch;       ///< factor of the length
     bool has_parent;
-    double step;      ///< m, most of an internode; 0: any
-    bool is_in_field; ///< other than plain gravity and light
+    double step;             ///< m, most of an internode; 0: any
+    bool is_in_field;        ///< other than plain gravity and light
+    double bend, bend_aside; ///< radians, by hand
+    const GArray *axis;      ///< drawn by hand, vec3s; NULL
 } FrStemBase;
 
 /// A stretch of a stem that forks: between two forks, or a fork and an end.
@@ -33,6 +35,7 @@ typedef struct FrLimb {
     double turn_x, turn_y; ///< … about x and y
     double straightness;   ///< part of it that is taken back up to its end
     FrKey key;
+    uint16_t arms;                     ///< at each fork on the way which arm, two bits each
     uint32_t first_branch, end_branch; ///< of a Tree: those of the stem's that it bears
 } FrLimb;
 
@@ -51,7 +54,10 @@ typedef struct FrStem {
     double growth_time;                              ///< years it grows for
     double curvature, twist, gnarl, gnarl_frequency; ///< radians; gnarls over the length
     double deviation;                                ///< radians; then places bend the stem
-    uint32_t gaps; ///< stretches between places where it bends; 0: evenly divided
+    double bend, bend_aside;                         ///< radians, by hand
+    int course;                                      ///< FR_COURSE_…
+    const GArray *path; ///< ends of internodes for FR_COURSE_PATH, vec3s
+    uint32_t gaps;      ///< stretches between places where it bends; 0: evenly divided
     FrTropism tropism;
     double step; ///< m, most of an internode; 0: any
     bool is_in_field;

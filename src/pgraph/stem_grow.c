@@ -89,7 +89,9 @@ static double gnarl_at(const FrStem *stem, FrKey limb, uint64_t side, double at)
 static versors walk_to(const FrStem *stem, FrKey key, Walk *walk, double at, double zigzag_x,
                        double zigzag_y) {
     double bend = bend_up_to(stem, walk, at);
-    double x = walk->bend - bend + zigzag_x, y = zigzag_y;
+    double part = stem->whole * (at - walk->at);
+    double x = walk->bend - bend + zigzag_x - stem->bend * part;
+    double y = zigzag_y + stem->bend_aside * part;
     if (has_gnarl(stem)) {
         double gnarl_x = gnarl_at(stem, key, 0, at), gnarl_y = gnarl_at(stem, key, 1, at);
         x += gnarl_x - walk->gnarl_x;
@@ -287,7 +289,7 @@ static vec3s point_of(const vec3s *points, uint32_t pieces, double at) {
 
 static versors grow_path(Growth *growth, uint32_t first, versors start) {
     const FrStem *stem = growth->stem;
-    const vec3s *points = (const vec3s *)(const void *)stem->prepared->path->data;
+    const vec3s *points = (const vec3s *)(const void *)stem->path->data;
     versors frame = identity; // of the internode, in the stem's own coordinates
     double each = 1.0 / stem->internodes;
     for (uint32_t k = 0; k < stem->internodes; k++) {
@@ -318,7 +320,6 @@ static versors grow_path(Growth *growth, uint32_t first, versors start) {
 
 versors fr_limb_grow(const FrStem *stem, const FrLimb *limb, FrPlant *plant, uint32_t axis,
                      uint32_t first, versors start, const FrFields *fields) {
-    const FrStemParams *params = stem->prepared->params;
     uint32_t last = plant->axes.last[axis];
     Growth growth = {
         .stem = stem,
@@ -329,7 +330,7 @@ versors fr_limb_grow(const FrStem *stem, const FrLimb *limb, FrPlant *plant, uin
         .before = last != FR_NONE ? last : plant->axes.bearer[axis],
         .is_base = limb->before == FR_NONE,
     };
-    switch (params->course) {
+    switch (stem->course) {
     case FR_COURSE_PATH:
         return grow_path(&growth, first, start);
     case FR_COURSE_STEPS:

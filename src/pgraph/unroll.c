@@ -1,5 +1,7 @@
 #include "pgraph/unroll.h"
 
+#include "pgraph/edit.h"
+
 #include <string.h>
 
 // More stages than this belong to no plant; they would only fill memory.
@@ -157,6 +159,7 @@ FrStatus fr_unroll(FrUnrolled *made, const FrPgraph *graph, const FrRecursions *
         .stages = g_array_new(FALSE, FALSE, sizeof(FrStage)),
         .links = g_array_new(FALSE, FALSE, sizeof(FrStageLink)),
         .roots = g_array_new(FALSE, FALSE, sizeof(uint32_t)),
+        .replacements = g_array_new(FALSE, FALSE, sizeof(uint32_t)),
     };
     Unroller unroller = {
         .made = made,
@@ -174,6 +177,11 @@ FrStatus fr_unroll(FrUnrolled *made, const FrPgraph *graph, const FrRecursions *
             g_array_append_val(made->roots, stage);
         }
     }
+    for (uint32_t k = 0; k < graph->edits->len && status == FR_OK; k++) {
+        uint32_t component = fr_graph_edit(graph, k)->replacement;
+        uint32_t stage = component != FR_NONE ? stage_of(&unroller, NULL, component) : FR_NONE;
+        g_array_append_val(made->replacements, stage);
+    }
     for (uint32_t stage = 0; stage < made->stages->len && status == FR_OK; stage++) {
         add_links(&unroller, stage);
         status = check_size(&unroller, stage);
@@ -187,6 +195,7 @@ void fr_unrolled_clear(FrUnrolled *unrolled) {
     g_array_unref(unrolled->stages);
     g_array_unref(unrolled->links);
     g_array_unref(unrolled->roots);
+    g_array_unref(unrolled->replacements);
 }
 
 // Stages in an order in which each comes before what it makes.

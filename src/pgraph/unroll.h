@@ -23,9 +23,10 @@ typedef struct FrStage {
 } FrStage;
 
 typedef struct FrUnrolled {
-    GArray *stages; ///< FrStage
-    GArray *links;  ///< FrStageLink
-    GArray *roots;  ///< uint32_t, stages
+    GArray *stages;       ///< FrStage
+    GArray *links;        ///< FrStageLink
+    GArray *roots;        ///< uint32_t, stages
+    GArray *replacements; ///< uint32_t, by edit: the stage that stands in for another, FR_NONE
 } FrUnrolled;
 
 /// Fails by a limit if there are more stages than a plant could use.

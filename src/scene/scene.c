@@ -104,9 +104,10 @@ static FrStatus rebuild_plant(Build *build, const FrPlantDef *definition, int64_
                               const char *key, FrScenePlant *made) {
     FrSceneParts *parts = build->parts;
     FrPgraphBuild *kept;
-    FrPgraph *reseeded = (uint64_t)seed == definition->seed
-                             ? NULL
-                             : fr_document_reseed(build->document, definition, (uint64_t)seed);
+    bool is_own = (uint64_t)seed == definition->seed && isnan(build->time);
+    FrPgraph *reseeded =
+        is_own ? NULL
+               : fr_document_reseed(build->document, definition, (uint64_t)seed, build->time);
     FrStatus status = fr_pgraph_rebuild(reseeded != NULL ? reseeded : definition->pgraph,
                                         parts->last_of(parts->data, key), build->context, &kept);
     fr_pgraph_free(reseeded);
@@ -137,11 +138,10 @@ static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t 
         return vary_plant(build, definition, seed < 0 ? definition->seed : (uint64_t)seed);
     }
     FrScenePlant made;
-    FrStatus status =
-        can_be_rebuilt(build, definition)
-            ? rebuild_plant(build, definition, seed, key, &made)
-            : fr_scene_grow(build->document, definition, seed, build->time, build->context, &made,
-                            NULL);
+    FrStatus status = can_be_rebuilt(build, definition)
+                          ? rebuild_plant(build, definition, seed, key, &made)
+                          : fr_scene_grow(build->document, definition, seed, build->time,
+                                          build->context, &made, NULL);
     if (status == FR_OK) {
         warn_of_nothing(build, definition, made.plant);
         g_array_append_val(build->scene->plants, made);

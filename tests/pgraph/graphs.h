@@ -121,6 +121,8 @@ static inline void built_free(Built built) {
     g_free(built.counts.by_component);
     g_free(built.counts.parent);
     g_free(built.counts.component);
+    g_free(built.counts.place);
+    g_free(built.counts.edits);
 }
 
 static inline uint64_t built_count(const Built *built, const char *id) {
