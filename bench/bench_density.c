@@ -283,6 +283,20 @@ static double grow_room(Room *room, uint32_t step) {
     return bench_now() - start;
 }
 
+/// The other estimators at the same points.
+static void bench_estimators(Room *room) {
+    static const char *const names[3] = {NULL, "density.query-nearest", "density.query-track"};
+    FrDensity *density = (FrDensity *)(void *)room->cloud.light;
+    for (int estimator = 1; estimator < 3; estimator++) {
+        density->params.estimator = estimator;
+        double seconds = bench_shortest(2, ask, room);
+        bench_tell(names[estimator], QUERIES / seconds, 0, "queries/s",
+                   "the same points, %s, 1 thread",
+                   estimator == 1 ? "50 nearest rays" : "lengths of rays within the distance");
+    }
+    density->params.estimator = 0;
+}
+
 static void bench_room(int threads) {
     Room *room = g_new0(Room, 1);
     start_room(room, threads);
@@ -303,6 +317,9 @@ static void bench_room(int threads) {
                "%d points in a room, %.0f rays each of %" G_GUINT64_FORMAT
                ", %d threads; the first time %.2f s with %" G_GUINT64_FORMAT " cells to make",
                QUERIES, (double)samples / QUERIES, stats.rays, threads, first, stats.cells);
+    if (threads == 1) {
+        bench_estimators(room);
+    }
     double sum = 0.0;
     for (uint32_t step = 1; step <= 5; step++) {
         sum += grow_room(room, step);

@@ -2,8 +2,9 @@
 // section 2.5), and any estimate from a look at all rays.
 //
 // Of k rays the farthest sets the radius r, so only the k − 1 others are chance: power (k − 1) /
-// (π r²) has no bias. Where a ball of the fixed distance holds too few rays, its radius and the
-// cells that are searched double together.
+// (π r²) has no bias. How many rays a ball of the fixed distance holds tells about how large one
+// with enough of them is; where it is still too small, its radius and the cells that are searched
+// double together.
 #include "light/estimate.h"
 
 /// A ray near a point.
@@ -79,10 +80,10 @@ typedef struct Job {
     const FrPaths *paths;
     const FrEstimator *how;
     const vec3s *points;
-    const uint32_t *open; ///< points without an answer
+    uint32_t *open; ///< points to be answered at this level
     uint32_t level;
     double radius;
-    bool *is_answered; ///< for each of `open`
+    bool *is_answered;
     FrLightAnswer *answers;
 } Job;
 
@@ -123,7 +124,7 @@ static void answer_open(void *data, size_t begin, size_t end, int worker) {
         uint32_t index = job->open[i];
         vec3s at = job->points[index];
         double point[3] = {(double)at.x, (double)at.y, (double)at.z};
-        job->is_answered[i] = true;
+        job->is_answered[index] = true;
         if (job->level == 0 || !fr_ball_is_inside(job->tree, point, job->radius)) {
             job->answers[index] = fr_estimate_from_all(job->paths, job->how, at);
             continue;
@@ -133,49 +134,68 @@ static void answer_open(void *data, size_t begin, size_t end, int worker) {
         if (found->len >= job->how->neighbours) {
             job->answers[index] = answer_from(found, job->paths, job->how);
         } else {
-            job->is_answered[i] = false;
+            job->is_answered[index] = false;
         }
     }
     g_array_unref(found);
 }
 
+// The level of the smallest cells whose ball should hold twice the wanted rays.
+static uint8_t first_level(const FrEstimator *how, uint32_t samples) {
+    uint32_t level = how->level;
+    for (uint64_t wanted = 8 * (uint64_t)how->neighbours; samples >= wanted && level < 20;
+         wanted *= 4) {
+        level++;
+    }
+    return (uint8_t)level;
+}
+
+// Answers at one level what is to be looked for there or deeper and has no answer yet.
+static void answer_level(Job *job, FrOctree *tree, const uint8_t *levels, size_t count,
+                         const FrContext *context) {
+    uint32_t open_count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (levels[i] >= job->level && !job->is_answered[i]) {
+            const float *at = job->points[i].raw;
+            double point[3] = {(double)at[0], (double)at[1], (double)at[2]};
+            job->open[open_count++] = i;
+            if (job->level > 0) {
+                fr_want_ball(tree, job->level, point, job->radius);
+            }
+        }
+    }
+    fr_octree_fill(tree, job->paths, context->pool);
+    fr_parallel_for(context->pool, open_count, 16, answer_open, job, context->progress);
+}
+
 FrStatus fr_estimate_nearest(FrOctree *tree, const FrPaths *paths, const FrEstimator *how,
                              const vec3s *points, size_t count, const FrContext *context,
                              FrLightAnswer *answers) {
-    uint32_t *open = g_new(uint32_t, count);
-    bool *is_answered = g_new(bool, count);
-    uint32_t open_count = (uint32_t)count;
-    for (uint32_t i = 0; i < open_count; i++) {
-        open[i] = i;
+    FrEstimator fixed = *how;
+    fixed.kind = FR_ESTIMATE_FIXED;
+    FrStatus status = fr_estimate(tree, paths, &fixed, points, count, context, answers);
+    if (status != FR_OK) {
+        return status;
+    }
+    uint8_t *levels = g_new(uint8_t, count), deepest = 0;
+    for (size_t i = 0; i < count; i++) {
+        levels[i] = first_level(how, answers[i].samples);
+        deepest = MAX(deepest, levels[i]);
     }
     Job job = {.tree = tree,
                .paths = paths,
                .how = how,
                .points = points,
-               .open = open,
-               .level = how->level,
-               .radius = how->distance,
-               .is_answered = is_answered,
+               .open = g_new(uint32_t, count),
+               .is_answered = g_new0(bool, count),
                .answers = answers};
-    while (open_count > 0 && !fr_progress_is_cancelled(context->progress)) {
-        for (uint32_t i = 0; i < open_count && job.level > 0; i++) {
-            const float *at = points[open[i]].raw;
-            fr_want_ball(tree, job.level, (double[3]){(double)at[0], (double)at[1], (double)at[2]},
-                         job.radius);
-        }
-        fr_octree_fill(tree, paths, context->pool);
-        fr_parallel_for(context->pool, open_count, 16, answer_open, &job, context->progress);
-        uint32_t left = 0;
-        for (uint32_t i = 0; i < open_count; i++) {
-            if (!is_answered[i]) {
-                open[left++] = open[i];
-            }
-        }
-        open_count = left;
-        job.level--;
-        job.radius *= 2.0;
+    for (int level = deepest; level >= 0; level--) {
+        job.level = (uint32_t)level;
+        job.radius = ldexp(how->distance, (int)how->level - level);
+        answer_level(&job, tree, levels, count, context);
     }
-    g_free(open);
-    g_free(is_answered);
+    g_free(levels);
+    g_free(job.open);
+    g_free(job.is_answered);
     return fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : FR_OK;
 }

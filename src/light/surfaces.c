@@ -279,8 +279,16 @@ FrStatus fr_surfaces_set(FrSurfaces *surfaces, const FrLightScene *scene, const 
         triangles =
             fr_count_add(triangles, triangles_of(scene->meshes[scene->stands[i].mesh].mesh));
     }
-    FrStatus status = fr_limit_check(triangles, MIN(context->limits.triangles, 1u << 30),
-                                     "triangles", "the light", (FrSpan){0}, context->diags);
+    // Two triangle lists, the tree, the table of keys.
+    enum { TRIANGLE_BYTES = 200 };
+    FrStatus status =
+        fr_limit_check(fr_count_multiply(triangles, TRIANGLE_BYTES), context->limits.bytes, "bytes",
+                       "the light", (FrSpan){0}, context->diags);
+    if (status != FR_OK) {
+        return status;
+    }
+    status = fr_limit_check(triangles, MIN(context->limits.triangles, 1u << 30), "triangles",
+                            "the light", (FrSpan){0}, context->diags);
     if (status != FR_OK) {
         return status;
     }

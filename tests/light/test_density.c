@@ -318,6 +318,9 @@ static void test_limits(void) {
     context.limits = fr_limits_default();
     context.limits.triangles = 11;
     g_assert_cmpint(fr_light_set_scene(light, test_scene(test), &context), ==, FR_ERR_LIMIT);
+    context.limits = fr_limits_default();
+    context.limits.bytes = 2000;
+    g_assert_cmpint(fr_light_set_scene(light, test_scene(test), &context), ==, FR_ERR_LIMIT);
     // It is as good as new afterwards.
     context.limits = fr_limits_default();
     g_assert_cmpint(fr_light_set_scene(light, test_scene(test), &context), ==, FR_OK);
