@@ -39,9 +39,9 @@ static inline uint32_t fr_key_table_find(const FrKeyTable *table, uint64_t key) 
     return table->slots[i].value;
 }
 
-/// Makes room for `more` keys at most half the slots filled.
+/// Makes room for `more` keys: at most two thirds of the slots get filled.
 static inline void fr_key_table_reserve(FrKeyTable *table, uint32_t more) {
-    uint64_t wanted = 2 * ((uint64_t)table->count + more);
+    uint64_t wanted = 3 * ((uint64_t)table->count + more) / 2 + 1;
     uint64_t old_size = table->slots == NULL ? 0 : (uint64_t)table->mask + 1;
     if (table->slots != NULL && wanted <= old_size) {
         return;
