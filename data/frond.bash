@@ -2,7 +2,7 @@
 _frond() {
     local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} verb=
     [[ $COMP_CWORD -gt 1 ]] && verb=${COMP_WORDS[1]}
-    local verbs='build render check info presets new derive vary schema reference'
+    local verbs='build render check info presets new derive convert vary schema reference'
     local reading='--seed --set --threads --limit --diag --quiet --verbose --help'
     local making="--output --lod --stats $reading"
     case $previous in

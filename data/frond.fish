@@ -4,7 +4,7 @@ function __frond_presets
 end
 
 set -l making build render vary
-set -l reading build render vary check info derive
+set -l reading build render vary check info derive convert
 
 complete -c frond -n __fish_use_subcommand -f -a build -d 'grow what a document says and write it as a model'
 complete -c frond -n __fish_use_subcommand -f -a render -d 'make a picture of it'
@@ -13,6 +13,7 @@ complete -c frond -n __fish_use_subcommand -f -a info -d 'say what is in a docum
 complete -c frond -n __fish_use_subcommand -f -a presets -d 'list the species that come with the program'
 complete -c frond -n __fish_use_subcommand -f -a new -d 'begin a document from a preset'
 complete -c frond -n __fish_use_subcommand -f -a derive -d 'derive an L-system and print its string'
+complete -c frond -n __fish_use_subcommand -f -a convert -d 'write a document in another format, or back'
 complete -c frond -n __fish_use_subcommand -f -a vary -d 'make a collection of instances of a plant'
 complete -c frond -n __fish_use_subcommand -f -a schema -d 'print the XML Schema of documents'
 complete -c frond -n __fish_use_subcommand -f -a reference -d 'print the reference of elements and attributes'

@@ -9,6 +9,7 @@ verbs=(
     'presets:list the species that come with the program'
     'new:begin a document from a preset'
     'derive:derive an L-system and print its string'
+    'convert:write a document in another format, or back'
     'vary:make a collection of instances of a plant'
     'schema:print the XML Schema of documents'
     'reference:print the reference of elements and attributes'

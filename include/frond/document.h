@@ -146,6 +146,17 @@ FR_API const GPtrArray *fr_document_materials(const FrDocument *document);
 FR_API const FrSceneParams *fr_document_scene(const FrDocument *document);
 FR_API const FrSurroundings *fr_document_surroundings(const FrDocument *document);
 
+// ---- conversion -------------------------------------------------------------------------------
+
+/// The document of one plant that is an L-system of this text; `view` (may be NULL) names its view
+/// file. Free with g_free().
+FR_API char *fr_document_wrap_lsystem(const char *id, const char *text, const char *view);
+/// The text of a plant that is an L-system as a file of its own: numbers that the document sets
+/// stand in their macros, steps and seed in its head. Free with g_free().
+FR_API FR_MUST_USE FrStatus fr_document_extract_lsystem(const FrDocument *document,
+                                                        const FrPlantDef *plant,
+                                                        const FrContext *context, char **text);
+
 /// The XML Schema (XSD 1.0) of the format, made from the parameter tables.
 FR_API char *fr_document_schema(void);
 /// The reference page of all elements and attributes, in Markdown, made from the same tables.

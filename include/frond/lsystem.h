@@ -123,6 +123,8 @@ typedef struct FrLsettings {
     FrMaterial *axes, *organs;  ///< their materials, borrowed; NULL: brown and green ones
     FrMaterial *const *colours; ///< of organs in colour 1, 2, … of `;(n)`, borrowed
     size_t colour_count;        ///< in other colours they are of `organs`
+    FrMaterial *const *palette; ///< 256 materials by colour index, some NULL, for what those do not
+                                ///< say and for axes; NULL: none
     bool inherits;     ///< where those are NULL there is none: that of what bears the plant
     const char *sites; ///< symbols that place something: organs without a shape, scaled by the
                        ///< first parameter, whose component is called like the symbol; NULL: none

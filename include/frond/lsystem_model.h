@@ -16,6 +16,8 @@
     X(TEXT, file, "", 0, 0, "", "", "file of the L-system (.l); empty: the text within")           \
     X(TEXT, view, "", 0, 0, "", "",                                                                \
       "view file (.v) with angles, widths, surfaces; empty: the .v beside file, if there is one")  \
+    X(TEXT, colour_map, "", 0, 0, "", "",                                                          \
+      "colour map (.map) or materials (.mat); empty: those beside file, if there are any")         \
     X(INTEGER, steps, "-1", -1, 1000000000, "", "", "steps of derivation; -1: as the text says")   \
     X(CHOICE, notation, "auto", 0, 0, "", "auto cpfg paper",                                       \
       "how it is written; auto: cpfg if it begins with Lsystem, else as in papers")                \
@@ -68,6 +70,10 @@ FR_API const FrLsystem *fr_lmodel_system(const FrLmodel *model);
 FR_API const FrLsystemParams *fr_lmodel_params(const FrLmodel *model);
 /// How many numbers are set.
 FR_API size_t fr_lmodel_value_count(const FrLmodel *model);
+/// Its name.
+FR_API const char *fr_lmodel_value_name(const FrLmodel *model, uint32_t value);
+/// The view file of the model, relative to `folder`; NULL if it has none. Free with g_free().
+FR_API char *fr_lmodel_view_name(const FrLmodel *model, const char *folder);
 /// The place of a number in the order they were set, that of FrLsettings.values; FR_NONE.
 FR_API uint32_t fr_lmodel_find_value(const FrLmodel *model, const char *name);
 /// Writes them all for a seed; `key` is that of what the plant stands on.

@@ -20,7 +20,8 @@ typedef enum CliVerbId {
     CLI_REFERENCE = 1 << 7,
     CLI_DERIVE = 1 << 8,
     CLI_VARY = 1 << 9,
-    CLI_ALL = (1 << 10) - 1
+    CLI_CONVERT = 1 << 10,
+    CLI_ALL = (1 << 11) - 1
 } CliVerbId;
 
 typedef struct CliOptions {
@@ -150,6 +151,8 @@ FR_MUST_USE FrStatus cli_lsystem_read(CliSession *session, const char *path, FrD
 bool cli_lsystem_takes(const char *path, const char *set);
 /// Does what --steps, --view ask of the L-systems of a document, and lets them print.
 FR_MUST_USE FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document);
+/// The L-system that --plant names, else the first; NULL with a message.
+const FrPlantDef *cli_lsystem_find(const CliSession *session, const FrDocument *document);
 /// Names the plants of a scene like the .l file they come from.
 void cli_lsystem_name(const char *path, FrScene *scene);
 
@@ -162,6 +165,7 @@ FrStatus cli_info(CliSession *session);
 FrStatus cli_presets(CliSession *session);
 FrStatus cli_new(CliSession *session);
 FrStatus cli_derive(CliSession *session);
+FrStatus cli_convert(CliSession *session);
 FrStatus cli_vary(CliSession *session);
 FrStatus cli_schema(CliSession *session);
 FrStatus cli_reference(CliSession *session);

@@ -129,3 +129,17 @@ void cli_lsystem_name(const char *path, FrScene *scene) {
         plant->name[strlen(plant->name) - 2] = '\0';
     }
 }
+
+const FrPlantDef *cli_lsystem_find(const CliSession *session, const FrDocument *document) {
+    const char *wanted = session->options->plant;
+    const GPtrArray *plants = fr_document_plants(document);
+    for (guint i = 0; i < plants->len; i++) {
+        const FrPlantDef *plant = g_ptr_array_index(plants, i);
+        if (plant->kind == FR_PLANT_LSYSTEM && (wanted == NULL || strcmp(plant->id, wanted) == 0)) {
+            return plant;
+        }
+    }
+    cli_message("there is no L-system %s%s%sin the document", wanted == NULL ? "" : "'",
+                wanted == NULL ? "" : wanted, wanted == NULL ? "" : "' ");
+    return NULL;
+}

@@ -19,6 +19,8 @@ static const CliVerb verbs[] = {
     {CLI_DERIVE, "derive", "FILE", "derive an L-system and print its string", cli_derive, 1, 1},
     {CLI_VARY, "vary", "DOC -o FOLDER", "make a collection of instances of a plant", cli_vary, 1,
      1},
+    {CLI_CONVERT, "convert", "IN OUT", "write a document in another program's format, or back",
+     cli_convert, 2, 2},
     {CLI_SCHEMA, "schema", "", "print the XML Schema of documents", cli_schema, 0, 0},
     {CLI_REFERENCE, "reference", "", "print the reference of elements and attributes",
      cli_reference, 0, 0},
@@ -59,23 +61,14 @@ static const CliVerb *find_verb(const char *name) {
 }
 
 static void report_unknown_verb(const char *name) {
-    static const char *const planned[] = {"convert"};
     const char *names[G_N_ELEMENTS(verbs)];
     for (size_t i = 0; i < G_N_ELEMENTS(verbs); i++) {
         names[i] = verbs[i].name;
     }
-    bool is_planned = false;
-    for (size_t i = 0; i < G_N_ELEMENTS(planned); i++) {
-        is_planned |= strcmp(name, planned[i]) == 0;
-    }
-    if (is_planned) {
-        cli_message("'%s' is not in this version (%s); its verbs are", name, FR_VERSION);
-    } else {
-        char *hint = cli_hint(name, names, G_N_ELEMENTS(names));
-        cli_message("there is no verb '%s'%s%s", name, hint,
-                    *hint == '\0' ? "; the verbs are" : " The verbs are");
-        g_free(hint);
-    }
+    char *hint = cli_hint(name, names, G_N_ELEMENTS(names));
+    cli_message("there is no verb '%s'%s%s", name, hint,
+                *hint == '\0' ? "; the verbs are" : " The verbs are");
+    g_free(hint);
     print_verbs(stderr);
 }
 
@@ -89,7 +82,8 @@ static bool check_files(const CliVerb *verb, const CliOptions *options) {
         return are_spared;
     }
     if (count < verb->least_files) {
-        cli_message("'%s' needs a file: frond %s %s", verb->name, verb->name, verb->synopsis);
+        cli_message("'%s' needs %s: frond %s %s", verb->name,
+                    verb->least_files == 1 ? "a file" : "two files", verb->name, verb->synopsis);
     } else {
         cli_message("'%s' is too much: frond %s %s",
                     (const char *)g_ptr_array_index(options->files, verb->most_files), verb->name,

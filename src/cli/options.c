@@ -241,7 +241,7 @@ static bool take_version(CliOptions *options, const char *value) {
 }
 
 enum {
-    READING = CLI_BUILD | CLI_RENDER | CLI_CHECK | CLI_INFO | CLI_DERIVE | CLI_VARY,
+    READING = CLI_BUILD | CLI_RENDER | CLI_CHECK | CLI_INFO | CLI_DERIVE | CLI_CONVERT | CLI_VARY,
     MAKING = CLI_BUILD | CLI_RENDER | CLI_VARY,
 };
 
@@ -265,7 +265,8 @@ static const OptionRow rows[] = {
     {"print", 0, "WHAT", CLI_DERIVE, "string (default), count, or steps: counts of each",
      take_print},
     {"count", 0, "N", CLI_VARY, "instances; 7 if not given", take_count},
-    {"plant", 0, "NAME", CLI_VARY | CLI_DERIVE, "the plant to vary or derive", take_plant},
+    {"plant", 0, "NAME", CLI_VARY | CLI_DERIVE | CLI_CONVERT,
+     "the plant to vary, derive or convert", take_plant},
     {"size", 0, "WxH", CLI_RENDER | CLI_VARY, "pixels of the picture, of each picture of a sheet",
      take_size},
     {"samples", 0, "N", CLI_RENDER | CLI_VARY, "paths per pixel", take_samples},

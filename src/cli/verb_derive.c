@@ -2,7 +2,6 @@
 #include "cli/cli.h"
 
 #include <stdio.h>
-#include <string.h>
 
 static void print_string(const FrLderivation *derivation, bool is_count) {
     const FrLstring *string = fr_lderivation_string(derivation);
@@ -62,21 +61,6 @@ static FrStatus derive_steps(CliSession *session, FrLderivation *derivation) {
     }
 }
 
-/// The L-system that is named, else the first; NULL with a message.
-static const FrPlantDef *find_lsystem(const CliSession *session, const FrDocument *document) {
-    const char *wanted = session->options->plant;
-    const GPtrArray *plants = fr_document_plants(document);
-    for (guint i = 0; i < plants->len; i++) {
-        const FrPlantDef *plant = g_ptr_array_index(plants, i);
-        if (plant->kind == FR_PLANT_LSYSTEM && (wanted == NULL || strcmp(plant->id, wanted) == 0)) {
-            return plant;
-        }
-    }
-    cli_message("there is no L-system %s%s%sin the document", wanted == NULL ? "" : "'",
-                wanted == NULL ? "" : wanted, wanted == NULL ? "" : "' ");
-    return NULL;
-}
-
 static FrStatus derive(CliSession *session, const FrPlantDef *plant) {
     FrLsettings settings = fr_lmodel_settings(plant->lsystem);
     int64_t own = plant->has_seed ? (int64_t)plant->seed : -1;
@@ -115,7 +99,7 @@ FrStatus cli_derive(CliSession *session) {
     if (status != FR_OK) {
         return status;
     }
-    const FrPlantDef *plant = find_lsystem(session, document);
+    const FrPlantDef *plant = cli_lsystem_find(session, document);
     status = plant == NULL ? FR_ERR_USAGE : derive(session, plant);
     fr_document_free(document);
     return status;

@@ -92,12 +92,12 @@ static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
     return plant;
 }
 
-/// The `<plant>` whose name stands at a place of the text.
-static uint32_t find_node(const FrXmlTree *tree, uint32_t begin) {
+uint32_t fr_read_find_plant(const FrXmlTree *tree, const FrPlantDef *plant) {
     uint32_t node = fr_xml_element_from(tree, tree->nodes[tree->root].first);
-    while (node != FR_NONE && tree->nodes[node].name.begin != begin) {
+    while (node != FR_NONE && tree->nodes[node].name.begin != plant->span.begin) {
         node = fr_xml_element_from(tree, tree->nodes[node].next);
     }
+    FR_ASSERT(node != FR_NONE);
     return node;
 }
 
@@ -118,8 +118,7 @@ FrPgraph *fr_document_reseed(const FrDocument *document, const FrPlantDef *plant
     reader.scope = scope;
     FrPgraph *graph = fr_pgraph_new(plant->id, seed);
     set_state(graph, plant, isnan(time) ? plant->time : time);
-    uint32_t node = find_node(document->tree, plant->span.begin);
-    FR_ASSERT(node != FR_NONE);
+    uint32_t node = fr_read_find_plant(document->tree, plant);
     uint32_t definition = fr_read_first(&reader, node, FR_ELEMENT_PGRAPH);
     if (definition != FR_NONE) {
         fr_read_pgraph(&reader, definition, graph);

@@ -43,6 +43,8 @@ GPtrArray *fr_read_sliders(FrReader *reader, uint32_t plant, FrScope *scope);
 /// Reports sliders and components of one name, which `--set` could not tell apart.
 void fr_read_check_sliders(FrReader *reader, uint32_t plant, const FrPgraph *graph);
 void fr_read_pgraph(FrReader *reader, uint32_t node, FrPgraph *graph);
+/// The `<plant>` of a definition.
+uint32_t fr_read_find_plant(const FrXmlTree *tree, const FrPlantDef *plant);
 /// Reads an `<lsystem>` and compiles it.
 FrLmodel *fr_read_lsystem(FrReader *reader, uint32_t node);
 /// Reads a `<define>`: its id, to be freed with g_free(), or NULL with an error. `value` is set.

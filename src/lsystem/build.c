@@ -48,6 +48,7 @@ FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *co
     for (size_t i = 0; i < settings->colour_count; i++) {
         builder->colours[i] = fr_plant_add_material(builder->plant, settings->colours[i]);
     }
+    builder->palette = settings->palette;
     builder->unit = settings->unit;
     builder->sites = settings->sites;
     for (const char *site = builder->sites; site != NULL && *site != '\0'; site++) {
@@ -228,6 +229,12 @@ static bool grow_nodes(FrLbuilder *builder) {
     return true;
 }
 
+/// The material of a colour in the palette, or `otherwise` where that does not say.
+static uint32_t painted(FrLbuilder *builder, int32_t colour, uint32_t otherwise) {
+    FrMaterial *material = builder->palette == NULL ? NULL : builder->palette[colour & 255];
+    return material == NULL ? otherwise : fr_plant_add_material(builder->plant, material);
+}
+
 /// Begins an axis where the segment starts; its offset is in the plant's coordinates until the end.
 static uint32_t begin_axis(FrLbuilder *builder, const FrLstand *stand, const FrLsegment *segment) {
     FrPlant *plant = builder->plant;
@@ -249,7 +256,7 @@ static uint32_t begin_axis(FrLbuilder *builder, const FrLstand *stand, const FrL
     }
     axes->base_radius[axis] = segment->start_width / 2;
     axes->component[axis] = builder->segment_component;
-    axes->material[axis] = builder->wood;
+    axes->material[axis] = painted(builder, segment->colour, builder->wood);
     axes->path[axis] = fr_key_child(fr_key_root(0), segment->module);
     return axis;
 }
@@ -275,6 +282,12 @@ void fr_lbuilder_count(FrLbuilder *builder, const FrLsegment *segment) {
     count_line(builder, square, sqrt(square), segment->end_width > 0);
 }
 
+/// Whether an axis has the colour of a segment; another begins another axis.
+static inline bool is_coloured(FrLbuilder *builder, uint32_t axis, const FrLsegment *segment) {
+    return builder->palette == NULL ||
+           builder->plant->axes.material[axis] == painted(builder, segment->colour, builder->wood);
+}
+
 /// Appends an internode of that length, unless it has none.
 static inline void add_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment,
                             double length) {
@@ -285,7 +298,7 @@ static inline void add_node(FrLbuilder *builder, FrLstand *stand, const FrLsegme
     FrAxes *axes = &builder->plant->axes;
     uint32_t node = builder->nodes++, parent = stand->node, axis;
     if (parent != FR_NONE && stand->is_at_tip && !stand->is_lateral &&
-        nodes->next[parent] == FR_NONE) {
+        nodes->next[parent] == FR_NONE && is_coloured(builder, nodes->axis[parent], segment)) {
         axis = nodes->axis[parent];
         nodes->next[parent] = node;
     } else {
@@ -316,12 +329,12 @@ void fr_lbuilder_segment(FrLbuilder *builder, FrLstand *stand, const FrLsegment 
     add_node(builder, stand, segment, length);
 }
 
-// Where an organ stands is told in the plant's coordinates until the end.
-uint32_t fr_lbuilder_material(const FrLbuilder *builder, const FrLpose *pose, uint32_t plain) {
+uint32_t fr_lbuilder_material(FrLbuilder *builder, const FrLpose *pose, uint32_t plain) {
     bool is_own = pose->colour >= 1 && (uint32_t)pose->colour <= builder->colour_count;
-    return is_own ? builder->colours[pose->colour - 1] : plain;
+    return is_own ? builder->colours[pose->colour - 1] : painted(builder, pose->colour, plain);
 }
 
+// Where an organ stands is told in the plant's coordinates until the end.
 void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at[3], uint32_t shape,
                        double scale, uint32_t material) {
     FrPlant *plant = builder->plant;

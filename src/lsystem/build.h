@@ -15,8 +15,9 @@ struct FrLbuilder {
     uint32_t wood, leaf; ///< materials
     uint32_t *colours;   ///< materials of the colours from 1
     uint32_t colour_count;
-    double unit;       ///< metres of one unit of the file
-    const char *sites; ///< symbols that place something, NULL
+    FrMaterial *const *palette; ///< by colour index, NULL
+    double unit;                ///< metres of one unit of the file
+    const char *sites;          ///< symbols that place something, NULL
 };
 
 FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *context);
@@ -44,7 +45,7 @@ static inline void fr_lbuilder_include(FrLbuilder *builder, const double at[3]) 
 /// A frame of the plant from the turtle's axes.
 versors fr_lbuilder_frame(const double heading[3], const double left[3]);
 /// The material of the pose's colour; `plain` if that has none of its own.
-uint32_t fr_lbuilder_material(const FrLbuilder *builder, const FrLpose *pose, uint32_t plain);
+uint32_t fr_lbuilder_material(FrLbuilder *builder, const FrLpose *pose, uint32_t plain);
 /// Places an organ of a shape at a point with the turtle's axes.
 void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at[3], uint32_t shape,
                        double scale, uint32_t material);
@@ -55,7 +56,12 @@ void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at
 void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const double (*points)[3],
                          uint32_t count);
 void fr_lbuilder_sphere(FrLbuilder *builder, const FrLpose *pose, double diameter);
-void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter, bool faces_viewer);
+/// A disc in the plane of heading and left; with a hole of that diameter a ring.
+void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter, double hole,
+                      bool faces_viewer);
+/// Triangles, three corners each, in the file's coordinates.
+void fr_lbuilder_triangles(FrLbuilder *builder, const FrLpose *pose, const double (*corners)[3],
+                           uint32_t count);
 /// Draws a surface of the view, scaled along left, heading and up.
 void fr_lbuilder_surface(FrLbuilder *builder, const FrLpose *pose, const FrLsurface *surface,
                          const double scale[3]);

@@ -3,6 +3,7 @@
 
 #include "lsystem/parse_file.h"
 #include "lsystem/view.h"
+#include "lsystem/warn.h"
 
 #include <string.h>
 
@@ -163,6 +164,9 @@ static FrStatus parse(FrLsystem *system, const FrLoptions *options, const FrCont
         }
     }
     report_unused(&parser);
+    if (parser.errors == 0) {
+        fr_lwarn(system, context->diags);
+    }
     g_free(parser.is_used);
     return parser.errors == 0 ? FR_OK : FR_ERR_DOCUMENT;
 }

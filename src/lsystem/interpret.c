@@ -327,9 +327,10 @@ FrStatus fr_lderivation_count(FrLderivation *derivation, const FrContext *contex
 FrStatus fr_lderivation_plant(FrLderivation *derivation, const FrContext *context, FrPlant **plant,
                               FrLdrawn *drawn) {
     *plant = NULL;
-    // In papers what an environment tells is drawn; cpfg asks no more after the last step.
-    FrStatus status =
-        derivation->system->is_paper ? fr_lderivation_ask(derivation, context) : FR_OK;
+    // In papers what an environment tells is drawn; cpfg asks no more after the last step unless
+    // its view says so.
+    bool is_asked = derivation->system->is_paper || derivation->view->answers_before;
+    FrStatus status = is_asked ? fr_lderivation_ask(derivation, context) : FR_OK;
     return status == FR_OK ? fr_lderivation_draw(derivation, context, plant, drawn) : status;
 }
 

@@ -1,6 +1,8 @@
 // An L-system together with what a document or a folder of files says of it.
 #include "frond/lsystem_model.h"
 
+#include "lsystem/palette.h"
+
 #include <cglm/struct.h>
 
 #include <string.h>
@@ -24,6 +26,7 @@ struct FrLmodel {
     FrMaterial *axes, *organs;
     GPtrArray *colours; ///< FrMaterial *
     FrLview *view;
+    FrMaterial **palette; ///< by colour index; NULL
     FrLsystem *system;
     FrLsimple simple;
     FrEnvironment environment;
@@ -75,6 +78,7 @@ void fr_lmodel_free(FrLmodel *model) {
     if (model != NULL) {
         fr_lsystem_free(model->system);
         fr_lview_free(model->view);
+        fr_lpalette_free(model->palette);
         fr_material_unref(model->axes);
         fr_material_unref(model->organs);
         g_ptr_array_unref(model->colours);
@@ -151,16 +155,13 @@ static FrSource *load(const char *name, const char *folder, FrSpan span, const F
     return source;
 }
 
-/// The view of the parameters, or the one beside the file; NULL if there is none.
-static char *view_name(const FrLsystemParams *params, const char *folder) {
-    if (params->view != NULL || params->file == NULL) {
-        return g_strdup(params->view);
-    }
-    size_t length = strlen(params->file);
-    if (!g_str_has_suffix(params->file, ".l") && !g_str_has_suffix(params->file, ".L")) {
+/// The file beside that of the L-system with another extension; NULL if there is none.
+static char *name_beside(const FrLsystemParams *params, const char *folder, const char *extension) {
+    const char *file = params->file == NULL ? "" : params->file;
+    if (!g_str_has_suffix(file, ".l") && !g_str_has_suffix(file, ".L")) {
         return NULL;
     }
-    char *name = g_strdup_printf("%.*sv", (int)(length - 1), params->file);
+    char *name = g_strdup_printf("%.*s%s", (int)(strlen(file) - 2), file, extension);
     char *path = g_path_is_absolute(name) ? g_strdup(name) : g_build_filename(folder, name, NULL);
     if (!g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
         g_clear_pointer(&name, g_free);
@@ -169,10 +170,15 @@ static char *view_name(const FrLsystemParams *params, const char *folder) {
     return name;
 }
 
+char *fr_lmodel_view_name(const FrLmodel *model, const char *folder) {
+    const FrLsystemParams *params = &model->params;
+    return params->view != NULL ? g_strdup(params->view) : name_beside(params, folder, ".v");
+}
+
 static FrStatus read_view(FrLmodel *model, const char *folder, FrSpan span,
                           const FrContext *context) {
     FrStatus status = FR_OK;
-    char *name = view_name(&model->params, folder), *own_folder = NULL;
+    char *name = fr_lmodel_view_name(model, folder), *own_folder = NULL;
     if (name != NULL) {
         FrSource *source = load(name, folder, span, context, &own_folder, &status);
         if (source != NULL) {
@@ -185,10 +191,28 @@ static FrStatus read_view(FrLmodel *model, const char *folder, FrSpan span,
     return status;
 }
 
+static FrStatus read_palette(FrLmodel *model, const char *folder, FrSpan span,
+                             const FrContext *context) {
+    FrStatus status = FR_OK;
+    char *name = g_strdup(model->params.colour_map), *own_folder = NULL;
+    name = name == NULL ? name_beside(&model->params, folder, ".mat") : name;
+    name = name == NULL ? name_beside(&model->params, folder, ".map") : name;
+    if (name != NULL) {
+        FrSource *source = load(name, folder, span, context, &own_folder, &status);
+        model->palette = source == NULL ? NULL : fr_lpalette_read(source, context->diags);
+        status = source != NULL && model->palette == NULL ? FR_ERR_DOCUMENT : status;
+        fr_source_unref(source);
+    }
+    g_free(own_folder);
+    g_free(name);
+    return status;
+}
+
 FrStatus fr_lmodel_compile(FrLmodel *model, FrSource *text, const char *folder, FrSpan span,
                            const FrContext *context) {
     FR_ASSERT(model->system == NULL && model->view == NULL);
     FrStatus seen = read_view(model, folder, span, context), status = FR_OK;
+    FrStatus coloured = read_palette(model, folder, span, context);
     char *own_folder = NULL;
     FrSource *source = text != NULL
                            ? fr_source_ref(text)
@@ -206,7 +230,7 @@ FrStatus fr_lmodel_compile(FrLmodel *model, FrSource *text, const char *folder, 
         fr_source_unref(source);
     }
     g_free(own_folder);
-    return MAX(seen, status);
+    return MAX(coloured, MAX(seen, status));
 }
 
 // ---- growing ----------------------------------------------------------------------------------
@@ -221,6 +245,10 @@ const FrLsystemParams *fr_lmodel_params(const FrLmodel *model) {
 
 size_t fr_lmodel_value_count(const FrLmodel *model) {
     return model->values->len;
+}
+
+const char *fr_lmodel_value_name(const FrLmodel *model, uint32_t value) {
+    return g_array_index(model->values, FrLvalue, value).name;
 }
 
 void fr_lmodel_evaluate(const FrLmodel *model, FrKey key, double *values) {
@@ -242,6 +270,7 @@ FrLsettings fr_lmodel_settings(const FrLmodel *model) {
     settings.organs = model->organs;
     settings.colours = (FrMaterial *const *)(void *)model->colours->pdata;
     settings.colour_count = model->colours->len;
+    settings.palette = model->palette;
     settings.print = model->print;
     settings.print_user = model->print_user;
     return settings;

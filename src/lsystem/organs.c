@@ -6,6 +6,7 @@
 
 #define ROUNDING 4096.0
 #define MOST_TRIANGLES 2600
+#define RING_SIDES 24
 #define MOST_CORNERS 512 // of a polygon that is cut into ears; longer ones become fans
 
 static uint32_t add_mesh(FrLbuilder *builder, const float (*corners)[3], uint32_t count,
@@ -156,6 +157,38 @@ static uint32_t settle(double (*at)[3], uint32_t count, double *unit) {
     return kept > 1 && memcmp(at[0], at[kept - 1], sizeof at[0]) == 0 ? kept - 1 : kept;
 }
 
+/// Places triangles that are given in the axes of the pose and in such units.
+static void add_parts(FrLbuilder *builder, const FrLpose *pose, const float (*corners)[3],
+                      uint32_t count, double stretch[3], double unit) {
+    uint32_t material = fr_lbuilder_material(builder, pose, builder->leaf);
+    for (uint32_t first = 0; first < count; first += 3 * MOST_TRIANGLES) {
+        uint32_t part = MIN(count - first, 3 * MOST_TRIANGLES);
+        double extent = extent_of(corners + first, part);
+        if (extent > 0 && isfinite(extent) && builder->status == FR_OK) {
+            uint32_t shape = add_mesh(builder, corners + first, part, extent, stretch);
+            if (shape != FR_NONE) {
+                fr_lbuilder_organ(builder, pose, pose->position, shape, extent * unit, material);
+            }
+        }
+    }
+}
+
+void fr_lbuilder_triangles(FrLbuilder *builder, const FrLpose *pose, const double (*corners)[3],
+                           uint32_t count) {
+    builder->drawn.surfaces++;
+    float(*local)[3] = g_malloc_n(count, sizeof *local);
+    for (uint32_t i = 0; i < count; i++) {
+        double at[3];
+        localize(pose, corners[i], at);
+        for (int k = 0; k < 3; k++) {
+            local[i][k] = (float)at[k];
+        }
+        fr_lbuilder_include(builder, corners[i]);
+    }
+    add_parts(builder, pose, (const float(*)[3])local, count, (double[3]){1, 1, 1}, 1);
+    g_free(local);
+}
+
 void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const double (*points)[3],
                          uint32_t count) {
     if (count < 3) {
@@ -170,18 +203,8 @@ void fr_lbuilder_polygon(FrLbuilder *builder, const FrLpose *pose, const double 
     count = settle(local, count, &unit);
     GArray *corners = g_array_new(FALSE, FALSE, 3 * sizeof(float));
     triangulate((const double(*)[3])local, count, corners);
-    for (uint32_t first = 0; first < corners->len; first += 3 * MOST_TRIANGLES) {
-        uint32_t part = MIN(corners->len - first, 3 * MOST_TRIANGLES);
-        const float(*c)[3] = (const float(*)[3])(void *)corners->data + first;
-        double extent = extent_of(c, part);
-        if (extent > 0 && builder->status == FR_OK) {
-            uint32_t shape = add_mesh(builder, c, part, extent, (double[3]){1, 1, 1});
-            if (shape != FR_NONE) {
-                fr_lbuilder_organ(builder, pose, pose->position, shape, extent * unit,
-                                  fr_lbuilder_material(builder, pose, builder->leaf));
-            }
-        }
-    }
+    add_parts(builder, pose, (const float(*)[3])(void *)corners->data, corners->len,
+              (double[3]){1, 1, 1}, unit);
     g_array_unref(corners);
     g_free(local);
 }
@@ -225,25 +248,15 @@ void fr_lbuilder_surface(FrLbuilder *builder, const FrLpose *pose, const FrLsurf
         turned[i][1] = -c[2];
         turned[i][2] = c[1];
     }
-    for (uint32_t first = 0; first < surface->count; first += 3 * MOST_TRIANGLES) {
-        uint32_t part = MIN(surface->count - first, 3 * MOST_TRIANGLES);
-        const float(*c)[3] = (const float(*)[3])turned + first;
-        double extent = extent_of(c, part);
-        if (extent > 0 && builder->status == FR_OK) {
-            uint32_t shape = add_mesh(builder, c, part, extent, stretch);
-            if (shape != FR_NONE) {
-                fr_lbuilder_organ(builder, pose, pose->position, shape, extent * size,
-                                  fr_lbuilder_material(builder, pose, builder->leaf));
-            }
-        }
-    }
+    add_parts(builder, pose, (const float(*)[3])turned, surface->count, stretch, size);
     g_free(turned);
 }
 
 // ---- spheres and discs ------------------------------------------------------------------------
 
 static void add_primitive(FrLbuilder *builder, const FrLpose *pose, double diameter,
-                          FrShapeKind kind, uint32_t material) {
+                          FrShapeKind kind) {
+    uint32_t material = fr_lbuilder_material(builder, pose, builder->leaf);
     if (!(diameter > 0) || !isfinite(diameter)) {
         return;
     }
@@ -269,16 +282,35 @@ static void include_around(FrLbuilder *builder, const double at[3], double radiu
 void fr_lbuilder_sphere(FrLbuilder *builder, const FrLpose *pose, double diameter) {
     builder->drawn.spheres++;
     include_around(builder, pose->position, diameter / 2, diameter / 2);
-    add_primitive(builder, pose, diameter, FR_SHAPE_SPHERE,
-                  fr_lbuilder_material(builder, pose, builder->leaf));
+    add_primitive(builder, pose, diameter, FR_SHAPE_SPHERE);
+}
+
+static void add_ring(FrLbuilder *builder, const FrLpose *pose, double outer, double inner) {
+    float corners[6 * RING_SIDES][3];
+    for (int i = 0; i < RING_SIDES; i++) {
+        static const int order[6][2] = {{0, 0}, {0, 1}, {1, 1}, {0, 0}, {1, 1}, {1, 0}};
+        for (int c = 0; c < 6; c++) {
+            double angle = 2 * G_PI * (i + order[c][0]) / RING_SIDES;
+            double radius = (order[c][1] != 0 ? outer : inner) / outer;
+            float *corner = corners[6 * i + c];
+            corner[0] = (float)(radius * cos(angle));
+            corner[1] = 0;
+            corner[2] = (float)(radius * sin(angle));
+        }
+    }
+    add_parts(builder, pose, (const float(*)[3])corners, 6 * RING_SIDES, (double[3]){1, 1, 1},
+              outer);
 }
 
 // cpfg counts discs as if they faced z, those that face the viewer at z 0.
-void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter,
+void fr_lbuilder_disc(FrLbuilder *builder, const FrLpose *pose, double diameter, double hole,
                       bool faces_viewer) {
     double z = faces_viewer ? 0 : pose->position[2];
     builder->drawn.discs++;
     include_around(builder, (double[3]){pose->position[0], pose->position[1], z}, diameter / 2, 0);
-    add_primitive(builder, pose, diameter, FR_SHAPE_CIRCLE,
-                  fr_lbuilder_material(builder, pose, builder->leaf));
+    if (hole > 0 && diameter > hole && isfinite(diameter)) {
+        add_ring(builder, pose, diameter / 2, hole / 2);
+    } else {
+        add_primitive(builder, pose, diameter, FR_SHAPE_CIRCLE);
+    }
 }

@@ -157,6 +157,8 @@ static void read_symbols(FrLparser *parser, bool is_consider) {
 }
 
 void fr_lparse_axiom(FrLparser *parser) {
+    fr_lparse_blanks(parser);
+    size_t begin = parser->at;
     FrLmodules modules = fr_lparse_modules(parser);
     if (modules.modules == 0) {
         fr_lparse_error(parser, parser->at, parser->at + 1, "syntax", "the axiom is empty");
@@ -165,6 +167,7 @@ void fr_lparse_axiom(FrLparser *parser) {
     parser->unit->axiom_words = modules.word_count;
     parser->unit->axiom_modules = modules.modules;
     parser->unit->axiom_values = modules.values;
+    parser->unit->axiom_span = fr_ltext_span(parser->text, begin, parser->at);
     end_line(parser);
 }
 

@@ -148,9 +148,10 @@ typedef struct FrLunit {
     uint32_t seed, length;                      ///< code, FR_NONE
     uint32_t axiom, axiom_words, axiom_modules; ///< template
     uint32_t axiom_values;                      ///< code, FR_NONE
-    uint32_t variables;                         ///< number of them
-    GHashTable *globals;                        ///< name → variable + 1
-    GArray *externals;                          ///< FrLexternal
+    FrSpan axiom_span;
+    uint32_t variables;  ///< number of them
+    GHashTable *globals; ///< name → variable + 1
+    GArray *externals;   ///< FrLexternal
     bool is_ignored[FR_LSYMBOLS];
     bool is_ring;
     bool is_stochastic; ///< has seed:, or weights in the notation of papers

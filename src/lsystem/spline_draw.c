@@ -205,7 +205,8 @@ static void add_node(FrLbuilder *builder, FrLtube *spline, const FrLsegment *seg
 static void add_strip(FrLturtle *turtle, FrLtube *spline, const FrLpoint *from,
                       const FrLpoint *to) {
     FrLbuilder *builder = turtle->builder;
-    FrLsegment segment = {.start_width = from->width, .end_width = to->width};
+    FrLsegment segment = {
+        .start_width = from->width, .end_width = to->width, .colour = turtle->pose.colour};
     FrLpoint frame = *to;
     for (int k = 0; k < 3; k++) {
         segment.start[k] = from->position[k];

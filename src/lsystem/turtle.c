@@ -45,6 +45,7 @@ void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuil
     turtle->corners = g_array_new(FALSE, FALSE, 3 * sizeof(double));
     turtle->polygons = g_array_new(FALSE, FALSE, sizeof(FrLpolygon));
     turtle->splines = g_array_new(FALSE, FALSE, sizeof(FrLtube));
+    turtle->patches = g_array_new(FALSE, FALSE, sizeof(FrLpatch));
     turtle->scales = g_array_new(FALSE, FALSE, sizeof(float));
     g_array_append_val(turtle->scales, turtle->pose.scale);
     for (size_t i = 0; i < G_N_ELEMENTS(turtle->turns); i++) {
@@ -57,6 +58,7 @@ void fr_lturtle_clear(FrLturtle *turtle) {
     g_array_unref(turtle->corners);
     g_array_unref(turtle->polygons);
     g_array_unref(turtle->splines);
+    g_array_unref(turtle->patches);
     g_array_unref(turtle->scales);
 }
 
@@ -147,6 +149,7 @@ static inline void draw(FrLturtle *turtle, const uint32_t *module, char symbol, 
     memcpy(segment->left, pose->left, sizeof segment->left);
     segment->start_width = pose->width;
     segment->module = origin;
+    segment->colour = pose->colour;
     segment->is_backward = length < 0;
     turtle->has_segment = true;
     advance(turtle, (double)length, symbol == 'F');

@@ -39,8 +39,17 @@ typedef struct FrLsegment {
     double start[3], end[3], heading[3], left[3];
     float start_width, end_width;
     uint64_t module;
+    int32_t colour;
     bool is_backward; ///< its length was negative
 } FrLsegment;
+
+/// A bicubic patch in the making: @PS, @PC, @PD.
+typedef struct FrLpatch {
+    int id;
+    int basis;       ///< 1 Bézier, 2 B-spline, 3 cardinal
+    uint16_t is_set; ///< bit 4·row + column
+    double points[16][3];
+} FrLpatch;
 
 /// A control point of a generalized cylinder.
 typedef struct FrLpoint {
@@ -83,6 +92,7 @@ typedef struct FrLturtle {
     GArray *corners;         ///< double[3]: of the polygons that are open
     GArray *polygons;        ///< FrLpolygon: open, the innermost last
     GArray *splines;         ///< FrLtube: open, one a bracket
+    GArray *patches;         ///< FrLpatch
     GArray *scales;          ///< float: of called L-systems, around and within
     bool is_dollar_vertical; ///< `$` turns as in The Algorithmic Beauty of Plants
     bool has_sites;          ///< some symbols place something
@@ -114,6 +124,8 @@ void fr_lturtle_end_node(FrLturtle *turtle);
 bool fr_lturtle_at(FrLturtle *turtle, char symbol, const uint32_t *module);
 /// The third letter of @Gs, @Ts, @Di, @bo and the like.
 void fr_lturtle_qualified(FrLturtle *turtle, char symbol, const uint32_t *module);
+/// Patches: @PS, @PC, @PD.
+void fr_lturtle_patch(FrLturtle *turtle, char symbol, const uint32_t *module);
 /// Rolls until left is horizontal.
 void fr_lturtle_level(FrLpose *pose);
 /// The k-th parameter, or a default.

@@ -88,7 +88,7 @@ static void set_scale(FrLturtle *turtle, char symbol, const uint32_t *module) {
     }
 }
 
-static void draw_ball(FrLturtle *turtle, char symbol, const uint32_t *module) {
+static void draw_ball(FrLturtle *turtle, char symbol, bool is_ring, const uint32_t *module) {
     const FrLpose *pose = &turtle->pose;
     bool is_given = fr_lhead_count(*module) > 0;
     float diameter = is_given ? fr_lword_float(module[1]) * pose->scale : pose->width;
@@ -98,7 +98,8 @@ static void draw_ball(FrLturtle *turtle, char symbol, const uint32_t *module) {
     if (symbol == 'O') {
         fr_lbuilder_sphere(turtle->builder, pose, (double)diameter);
     } else {
-        fr_lbuilder_disc(turtle->builder, pose, (double)diameter, symbol == 'o');
+        double hole = is_ring ? (double)(diameter - 2 * pose->width) : 0;
+        fr_lbuilder_disc(turtle->builder, pose, (double)diameter, fmax(hole, 0), symbol == 'o');
     }
     turtle->status = MAX(turtle->status, turtle->builder->status);
 }
@@ -119,7 +120,11 @@ void fr_lturtle_qualified(FrLturtle *turtle, char symbol, const uint32_t *module
     } else if (qualifier == 'D') {
         set_scale(turtle, symbol, module);
     } else if (qualifier == 'b') {
-        draw_ball(turtle, symbol, module);
+        draw_ball(turtle, symbol, true, module);
+    } else if (qualifier == 'P') {
+        fr_lturtle_patch(turtle, symbol, module);
+    } else if (qualifier == 'm' && symbol == 'c' && fr_lturtle_value(module, 0, 0) == 1) {
+        turtle->skip = 1;
     }
 }
 
@@ -165,10 +170,10 @@ bool fr_lturtle_at(FrLturtle *turtle, char symbol, const uint32_t *module) {
     case 'O':
     case 'o':
     case 'c':
-        draw_ball(turtle, symbol, module);
+        draw_ball(turtle, symbol, false, module);
         return true;
     default:
-        // Read but without effect: colours of the back, labels, objects of renderers.
+        // Read but without effect: colours of the back, labels, objects of renderers (warn.c).
         return strchr(",;LSIJbPm", symbol) != NULL;
     }
 }

@@ -53,8 +53,9 @@ typedef struct FrLsurface {
 struct FrLview {
     double angle, width, width_step, scale, scale_step;
     FrLstyle style;
-    bool tapers, twists, draws_past_cut, answers_before;
-    bool is_framed; ///< has a box:, so that nothing is drawn to find one
+    bool tapers, twists, draws_past_cut;
+    bool answers_before; ///< the environment answers before the string is drawn
+    bool is_framed;      ///< has a box:, so that nothing is drawn to find one
     uint32_t contour_sides;
     int colour, colour_step;
     double old_direction[3], old_elasticity, old_step;

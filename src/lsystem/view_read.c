@@ -46,7 +46,6 @@ static const char *const ignored[] = {"viewpoint",
                                       "cue range",
                                       "antialiasing",
                                       "concave polygons",
-                                      "texture",
                                       "background scene",
                                       "font",
                                       "winfont",
@@ -63,7 +62,6 @@ static const char *const ignored[] = {"viewpoint",
                                       "corrected rotation",
                                       "stationary view",
                                       "line caps",
-                                      "initial texture",
                                       "tapered polygons"};
 
 static const char *const known[] = {"angle increment",
@@ -283,6 +281,10 @@ static void report_unknown(Reader *reader, const char *label) {
     }
     if (strcmp(label, "line") == 0) {
         warn(reader, "left-out", "surfaces in the place of cylinders are not drawn: ", label);
+        return;
+    }
+    if (strcmp(label, "texture") == 0 || strcmp(label, "initial texture") == 0) {
+        warn(reader, "left-out", "textures are not drawn: ", label);
         return;
     }
     const char *near = fr_nearest_name(label, known, G_N_ELEMENTS(known));

@@ -130,6 +130,47 @@ static void text_is_kept(void) {
     forget(&parsed);
 }
 
+static char *extracted(const FrDocument *document) {
+    FrContext context = fr_context_default();
+    char *text;
+    g_assert_cmpint(fr_document_extract_lsystem(document,
+                                                g_ptr_array_index(fr_document_plants(document), 0),
+                                                &context, &text),
+                    ==, FR_OK);
+    return text;
+}
+
+static void check_extracted(const char *document, const char *expected) {
+    Parsed parsed = parse(document);
+    g_assert_cmpint(parsed.status, ==, FR_OK);
+    char *text = extracted(parsed.document);
+    g_assert_cmpstr(text, ==, expected);
+    g_free(text);
+    forget(&parsed);
+}
+
+static void to_files(void) {
+    check_extracted(HOLD("", "<![CDATA[\nw : A\np : A -> F(1 < 2)A\n]]>"),
+                    "w : A\np : A -> F(1 < 2)A\n");
+    check_extracted(HOLD(" steps='3' brackets='round'",
+                         "<define id='r' value='0.5'/><define id='s' value='-2'/><![CDATA[\n"
+                         "#define r 0.25\nw : F\np : F -> F(+F)F : r*s*s\n]]>"),
+                    "#define s (-2)\nderivation length: 3\nbrackets: round\n#define r 0.5\n"
+                    "w : F\np : F -> F(+F)F : r*s*s\n");
+    check_extracted("<frond version='1'><plant id='a' seed='9'><lsystem steps='4'>\n"
+                    "Lsystem: 1\nseed: 3\nderivation  length: 2\naxiom: A\nA --> AB\nendlsystem\n"
+                    "</lsystem></plant></frond>",
+                    "Lsystem: 1\nseed: 9\nderivation length: 4\naxiom: A\nA --> AB\n"
+                    "endlsystem\n");
+}
+
+static void from_files(void) {
+    const char *text = "/* ]]> & < */\nw : A\np : A -> F(1 < 2 && 2 > 1)A\n";
+    char *document = fr_document_wrap_lsystem("bush", text, NULL);
+    check_extracted(document, text);
+    g_free(document);
+}
+
 static void round_brackets(void) {
     Parsed parsed = parse(HOLD(" brackets='round'", "w : F\np : F -> F(+F)F"));
     g_assert_cmpint(parsed.status, ==, FR_OK);
@@ -154,6 +195,9 @@ int main(int argc, char **argv) {
                     numbers);
     g_test_add_func("/document/lsystem/a number is defined for #ifndef", conditions);
     g_test_add_func("/document/lsystem/the text is written back as it was", text_is_kept);
+    g_test_add_func("/document/lsystem/it becomes a file of its own", to_files);
+    g_test_add_func("/document/lsystem/a file becomes a document and is the same again",
+                    from_files);
     g_test_add_func("/document/lsystem/round brackets may branch", round_brackets);
     return g_test_run();
 }

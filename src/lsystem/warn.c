@@ -1,0 +1,102 @@
+// What a compiled file says that is allowed and yet unlikely to be meant: symbols that have no
+// effect, modules with a number of parameters that no production knows.
+#include "lsystem/warn.h"
+
+/// How many parameters the predecessors of each symbol have: bit n for n of them.
+typedef struct Warner {
+    const FrLsystem *system;
+    FrDiags *diags;
+    uint64_t known[FR_LSYMBOLS];
+    GHashTable *told; ///< texts of symbols left out, heads of odd modules
+} Warner;
+
+/// Symbols that the turtle reads over: `@L` labels, `@I` and so on.
+static const char *left_out(char symbol) {
+    static const struct {
+        char symbol;
+        const char *what;
+    } symbols[] = {{'L', "@L: labels are not drawn"},
+                   {'I', "@I: nothing is included"},
+                   {'J', "@J: nothing is included"},
+                   {'S', "@S: no commands are run"},
+                   {';', "@;: surfaces have the same colour on both sides"},
+                   {',', "@,: surfaces have the same colour on both sides"}};
+    for (size_t i = 0; i < G_N_ELEMENTS(symbols); i++) {
+        if (symbol == symbols[i].symbol) {
+            return symbols[i].what;
+        }
+    }
+    return NULL;
+}
+
+/// `A(1)` where all productions of A have two parameters.
+static void check_count(Warner *warner, uint32_t head, FrSpan span) {
+    unsigned symbol = fr_lhead_symbol(head), count = fr_lhead_count(head);
+    uint64_t known = symbol < FR_LSYMBOLS ? warner->known[symbol] : 0;
+    bool is_odd = known != 0 && count < 64 && (known >> count & 1) == 0;
+    gpointer key = GUINT_TO_POINTER((head & FR_LHEAD_KEY) + 1);
+    if (!is_odd || !g_hash_table_add(warner->told, key)) {
+        return;
+    }
+    unsigned least = 0;
+    while ((known >> least & 1) == 0) {
+        least++;
+    }
+    fr_diags_add(warner->diags, FR_WARNING, "parameter-count", span,
+                 "'%c' stands here with %u parameter%s, and no production knows that; there is one "
+                 "for %u",
+                 (char)symbol, count, count == 1 ? "" : "s", least);
+}
+
+static void check_template(Warner *warner, uint32_t first, uint32_t count, FrSpan span) {
+    char before = '\0', before_that = '\0';
+    for (uint32_t at = 0; at < count;) {
+        uint32_t head = g_array_index(warner->system->words, uint32_t, first + at);
+        char symbol = (char)fr_lhead_symbol(head);
+        const char *what = before == '@' ? left_out(symbol) : NULL;
+        if (before_that == '@' && before == 'T' && symbol == 'x') {
+            what = "@Tx: textures are not drawn";
+        }
+        if (what != NULL && g_hash_table_add(warner->told, (gpointer)what)) {
+            fr_diags_add(warner->diags, FR_WARNING, "left-out", span, "%s", what);
+        }
+        bool is_raw = before == '@' || before == '~' || before == '?' || before_that == '@';
+        if (g_ascii_isalpha(symbol) && !is_raw) {
+            check_count(warner, head, span);
+        }
+        before_that = before;
+        before = fr_lhead_count(head) == 0 ? symbol : '\0';
+        at += 1 + fr_lhead_count(head);
+    }
+}
+
+static void note_predecessors(Warner *warner) {
+    const GArray *productions = warner->system->productions;
+    for (guint i = 0; i < productions->len; i++) {
+        const FrLproduction *production = &g_array_index(productions, FrLproduction, i);
+        for (uint32_t k = 0; k < production->strict.count; k++) {
+            uint32_t key =
+                g_array_index(warner->system->patterns, FrLpattern, production->strict.first + k)
+                    .key;
+            unsigned symbol = fr_lhead_symbol(key), count = fr_lhead_count(key);
+            // What the turtle draws and turns by has meanings with and without a number.
+            if (symbol < FR_LSYMBOLS && count < 64 && strchr("FfGg", (int)symbol) == NULL) {
+                warner->known[symbol] |= UINT64_C(1) << count;
+            }
+        }
+    }
+}
+
+void fr_lwarn(const FrLsystem *system, FrDiags *diags) {
+    Warner warner = {.system = system, .diags = diags, .told = g_hash_table_new(NULL, NULL)};
+    note_predecessors(&warner);
+    for (guint u = 0; u < system->units->len; u++) {
+        const FrLunit *unit = g_ptr_array_index(system->units, u);
+        check_template(&warner, unit->axiom, unit->axiom_words, unit->axiom_span);
+    }
+    for (guint i = 0; i < system->productions->len; i++) {
+        const FrLproduction *production = &g_array_index(system->productions, FrLproduction, i);
+        check_template(&warner, production->words, production->word_count, production->span);
+    }
+    g_hash_table_unref(warner.told);
+}
