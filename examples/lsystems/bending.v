@@ -1,0 +1,2 @@
+line style: cylinder
+initial line width: 0.14 s
