@@ -6,6 +6,8 @@
 #include "pgraph/global.h"
 #include "pgraph/life.h"
 
+#include <math.h>
+
 enum { MOST_AT_ONCE = 1024 };
 
 typedef struct Batch {
@@ -65,7 +67,7 @@ static FrStatus grow(const Batch *batch, uint32_t row, FrEvaluator *evaluator,
     FrGraftWish wish = {
         .plant = params->plant,
         .key = expansion->level.key[row],
-        .steps = (int64_t)fr_value(evaluator, &params->steps, FR_GRAFT_steps),
+        .steps = (int64_t)floor(fr_value(evaluator, &params->steps, FR_GRAFT_steps) + 0.5),
         .symbols = prepared->symbols,
         .names = names,
         .values = values,
