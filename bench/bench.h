@@ -38,4 +38,5 @@ void bench_rebuild(void);
 void bench_variation(void);
 void bench_nurbs(void);
 void bench_density(void);
+void bench_light(void);
 void bench_io(void);

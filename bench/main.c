@@ -14,7 +14,8 @@ static const struct {
     {"pgraph", bench_pgraph},       {"lsystem", bench_lsystem},
     {"skin", bench_skin},           {"rebuild", bench_rebuild},
     {"variation", bench_variation}, {"nurbs", bench_nurbs},
-    {"density", bench_density},     {"io", bench_io},
+    {"density", bench_density},     {"light", bench_light},
+    {"io", bench_io},
 };
 
 static GArray *results; // BenchResult

@@ -21,3 +21,11 @@ FR_API const FrParamTable *fr_render_table(void);
 FR_API FR_MUST_USE FrStatus fr_render(const FrScene *scene, const FrRenderParams *params,
                                       const FrSkinParams *skin, const FrContext *context,
                                       FrImage **image);
+
+/// The light that the scene's plants sense, in false colours, along a slice across `axis` (0, 1, 2:
+/// x, y, z) at `at` metres; the plants' skeletons are drawn on top. Black is dark; white is full
+/// light, or nearly the brightest of the slice where the scene has no measure of full light. Of
+/// the parameters only the size counts. The scene must have surroundings.
+FR_API FR_MUST_USE FrStatus fr_render_light(const FrScene *scene, int axis, double at,
+                                            const FrRenderParams *params, const FrContext *context,
+                                            FrImage **image);

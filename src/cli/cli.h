@@ -29,6 +29,8 @@ typedef struct CliOptions {
     GPtrArray *outputs; ///< char *, of -o
     GPtrArray *sets;    ///< char *, "path=value"
     int64_t seed;       ///< < 0: as the document says
+    int light_axis;     ///< of a slice of light: 0, 1, 2 are x, y, z; < 0: none is wanted
+    double light_at;    ///< m, along that axis
     double time;        ///< years, of all plants' clocks; NAN: as the document says
     bool has_frames;
     int64_t first_frame, last_frame;

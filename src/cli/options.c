@@ -177,6 +177,19 @@ static bool take_frames(CliOptions *options, const char *value) {
     return is_right;
 }
 
+static bool take_light(CliOptions *options, const char *value) {
+    const char *axis = *value == '\0' ? NULL : strchr("xyz", *value);
+    char *end = NULL;
+    double at = axis != NULL && value[1] == '=' ? g_ascii_strtod(value + 2, &end) : 0;
+    if (end == NULL || end == value + 2 || *end != '\0' || !(at >= -1e6 && at <= 1e6)) {
+        cli_message("--light takes a slice like z=1.2, from -1000000 to 1000000, not '%s'", value);
+        return false;
+    }
+    options->light_axis = *value - 'x';
+    options->light_at = at;
+    return true;
+}
+
 static bool take_steps(CliOptions *options, const char *value) {
     return take_integer("steps", value, 0, 1000000000, &options->steps);
 }
@@ -270,6 +283,8 @@ static const OptionRow rows[] = {
     {"size", 0, "WxH", CLI_RENDER | CLI_VARY, "pixels of the picture, of each picture of a sheet",
      take_size},
     {"samples", 0, "N", CLI_RENDER | CLI_VARY, "paths per pixel", take_samples},
+    {"light", 0, "AXIS=AT", CLI_RENDER, "the light in a slice, like z=1.2, in false colours",
+     take_light},
     {"camera", 0, "NAME", CLI_RENDER, "the view of that name", take_camera},
     {"preset", 0, "NAME", CLI_NEW,
      "the species to begin with, else a young tree; see frond presets", take_preset},
@@ -290,6 +305,7 @@ CliOptions cli_options_new(void) {
                         .sets = g_ptr_array_new_with_free_func(g_free),
                         .seed = -1,
                         .time = NAN,
+                        .light_axis = -1,
                         .steps = -1,
                         .limits = fr_limits_default(),
                         .nurbs = fr_nurbs_default()};

@@ -62,7 +62,10 @@ static FrStatus render_and_save(CliSession *session, const FrScene *scene, const
     skin.lod = options->lod;
     double began = cli_now();
     FrImage *image = NULL;
-    FrStatus status = fr_render(scene, &params, &skin, &session->context, &image);
+    FrStatus status = options->light_axis >= 0
+                          ? fr_render_light(scene, options->light_axis, options->light_at, &params,
+                                            &session->context, &image)
+                          : fr_render(scene, &params, &skin, &session->context, &image);
     session->render_seconds += cli_now() - began;
     if (status == FR_OK) {
         GBytes *png = fr_image_to_png(image);

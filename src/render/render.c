@@ -132,7 +132,7 @@ static void render_tiles(void *data, size_t begin, size_t end, int worker) {
     }
 }
 
-static FrStatus check_size(const FrRenderParams *params, const FrContext *context) {
+FrStatus fr_render_check_size(const FrRenderParams *params, const FrContext *context) {
     if (params->width < 1 || params->height < 1 || params->width > UINT32_MAX ||
         params->height > UINT32_MAX || params->samples < 1 || params->samples > UINT32_MAX ||
         params->bounces < 0 || params->bounces > UINT32_MAX) {
@@ -232,7 +232,7 @@ FrStatus fr_render(const FrScene *scene, const FrRenderParams *params, const FrS
                    const FrContext *context, FrImage **image) {
     *image = NULL;
     const FrViewParams *view = NULL;
-    FrStatus status = check_size(params, context);
+    FrStatus status = fr_render_check_size(params, context);
     if (status == FR_OK) {
         status = find_view(scene, params->view, context, &view);
     }

@@ -10,3 +10,5 @@
 FR_MUST_USE FrStatus fr_render_world(FrWorld *world, const FrViewParams *view, double stops,
                                      const FrRenderParams *params, const FrContext *context,
                                      FrImage **image);
+/// Refuses pictures without pixels and those beyond the limits.
+FR_MUST_USE FrStatus fr_render_check_size(const FrRenderParams *params, const FrContext *context);

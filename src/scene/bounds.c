@@ -24,6 +24,18 @@ static float reach_of(const FrShape *shape) {
     return glms_vec3_norm(half);
 }
 
+/// The corners of the box that a primitive fills, where it is placed.
+static void add_corners(Box *box, const FrShape *shape, vec3s position, versors rotation,
+                        float scale) {
+    for (int corner = 0; corner < 8; corner++) {
+        vec3s local = {{(corner & 1) != 0 ? 0.5F * shape->size.x : -0.5F * shape->size.x,
+                        (corner & 2) != 0 ? 0.5F * shape->size.y : -0.5F * shape->size.y,
+                        (corner & 4) != 0 ? shape->size.z : 0}};
+        vec3s at = glms_quat_rotatev(rotation, glms_vec3_scale(local, scale));
+        add_ball(box, glms_vec3_add(position, at), 0);
+    }
+}
+
 /// Where deformations of triangles take a point.
 static vec3s deformed(const FrScopes *scopes, uint32_t scope, vec3s at) {
     if (scopes != NULL && scope != FR_NONE && scopes->has_triangles[scope]) {
@@ -60,8 +72,14 @@ static Box posed_box(const FrPlant *plant, const FrScopes *scopes) {
         vec3s position;
         versors rotation;
         fr_plant_organ_pose(plant, i, &position, &rotation);
-        add_ball(&box, deformed(scopes, plant->organs.deformer[i], position),
-                 plant->organs.scale[i] * reach_of(&g_array_index(plant->shapes, FrShape, shape)));
+        const FrShape *form = &g_array_index(plant->shapes, FrShape, shape);
+        float scale = plant->organs.scale[i];
+        if (scopes == NULL && form->kind >= FR_SHAPE_BOX && form->kind <= FR_SHAPE_TRIANGLE) {
+            add_corners(&box, form, position, rotation, scale);
+        } else {
+            position = deformed(scopes, plant->organs.deformer[i], position);
+            add_ball(&box, position, scale * reach_of(form));
+        }
     }
     return box;
 }
