@@ -10,12 +10,10 @@ static const struct {
     const char *name;
     void (*run)(void);
 } benches[] = {
-    {"plant", bench_plant},         {"expr", bench_expr},
-    {"pgraph", bench_pgraph},       {"lsystem", bench_lsystem},
-    {"skin", bench_skin},           {"rebuild", bench_rebuild},
-    {"variation", bench_variation}, {"nurbs", bench_nurbs},
-    {"density", bench_density},     {"light", bench_light},
-    {"io", bench_io},
+    {"plant", bench_plant},         {"expr", bench_expr},   {"pgraph", bench_pgraph},
+    {"lsystem", bench_lsystem},     {"skin", bench_skin},   {"rebuild", bench_rebuild},
+    {"variation", bench_variation}, {"nurbs", bench_nurbs}, {"density", bench_density},
+    {"light", bench_light},         {"io", bench_io},
 };
 
 static GArray *results; // BenchResult

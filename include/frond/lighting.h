@@ -3,6 +3,7 @@
 /// lamps as what shines, and the backend that its document asks for.
 #pragma once
 
+#include "frond/light_field.h"
 #include "frond/scene.h"
 
 typedef struct FrLighting FrLighting;
@@ -19,6 +20,10 @@ FR_API FR_MUST_USE FrStatus fr_lighting_update(FrLighting *lighting, const FrSce
 FR_API FR_MUST_USE FrStatus fr_lighting_query(FrLighting *lighting, const vec3s *points,
                                               size_t count, const FrContext *context,
                                               FrLightAnswer *answers);
+/// Directions to the light in a box; see fr_light_field_new().
+FR_API FR_MUST_USE FrStatus fr_lighting_field(FrLighting *lighting, const FrLightPlace *place,
+                                              vec3s min, vec3s max, uint32_t cells,
+                                              const FrContext *context, FrLightField **field);
 /// The points asked for are done with.
 FR_API void fr_lighting_forget(FrLighting *lighting);
 FR_API FrLightStats fr_lighting_stats(const FrLighting *lighting);

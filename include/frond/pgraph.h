@@ -6,6 +6,7 @@
 /// and parameter does: docs/components.md, generated from the tables.
 #pragma once
 
+#include "frond/light_field.h"
 #include "frond/param.h"
 #include "frond/plant.h"
 
@@ -110,6 +111,9 @@ FR_API void fr_pgraph_add_material(FrPgraph *graph, FrMaterial *material);
 /// Roots, unreachable components, cycles without a depth, unknown materials.
 FR_API FR_MUST_USE FrStatus fr_pgraph_check(const FrPgraph *graph, FrDiags *diags);
 
+/// True if one of its Worlds samples the light.
+FR_API bool fr_pgraph_samples_light(const FrPgraph *graph);
+
 /// What stands at one instance of a graft.
 typedef struct FrGraftWish {
     const char *plant;   ///< its id
@@ -129,6 +133,7 @@ typedef struct FrGraft {
     /// than they allow.
     FrStatus (*grow)(void *data, const FrGraftWish *wish, const FrContext *context,
                      FrPlant **plant);
+    const FrLightField *light; ///< for Worlds that sample it; NULL: they go by their formulas
 } FrGraft;
 
 /// What an expansion made. `by_component` has fr_pgraph_count() elements.

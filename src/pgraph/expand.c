@@ -524,6 +524,7 @@ FrStatus fr_pgraph_build_grafted(const FrPgraph *graph, const FrGraft *graft,
                                  FrPgraphCounts *counts) {
     FrBuild build = {
         .context = context, .counts = counts, .graft = graft, .expansion = {.graph = graph}};
+    build.expansion.light = graft != NULL ? graft->light : NULL;
     FrUnrolled unrolled = {0};
     FrStatus status = run(&build, &unrolled);
     if (build.expansion.plant != NULL) {

@@ -22,6 +22,17 @@
 // Shorter vectors have no direction.
 #define SHORTEST 1e-12
 
+bool fr_pgraph_samples_light(const FrPgraph *graph) {
+    for (guint i = 0; i < graph->prototypes->len; i++) {
+        const FrPrototype *prototype = fr_pgraph_prototype(graph, i);
+        if (prototype->kind == FR_COMPONENT_WORLD &&
+            ((const FrWorldParams *)prototype->params)->sampled) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -71,6 +82,14 @@ void fr_field_light(const FrFields *fields, const double at[3], double light[3])
     light[2] = 1;
     if (world != NULL) {
         const FrWorldParams *params = fields->prepared[world->component].params;
+        if (params->sampled && fields->light != NULL) {
+            vec3s point = {{(float)at[0], (float)at[1], (float)at[2]}};
+            vec3s towards = fr_light_field_at(fields->light, point);
+            for (int k = 0; k < 3; k++) {
+                light[k] = (double)towards.raw[k];
+            }
+            return;
+        }
         const FrExpr *const map[3] = {params->light_x, params->light_y, params->light_z};
         double local[3];
         fr_field_local(world, at, local);

@@ -22,6 +22,7 @@ typedef struct FrFields {
     const FrPrepared *prepared; ///< by component
     uint32_t innermost;         ///< FR_NONE: plain gravity and light
     FrEvaluator *evaluator;     ///< takes note of formulas without value
+    const FrLightField *light;  ///< for Worlds that sample it; NULL
 } FrFields;
 
 /// What turns a stem on its way.

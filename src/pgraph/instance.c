@@ -205,6 +205,7 @@ FrFields fr_instance_fields(const FrExpansion *expansion, uint32_t row, FrEvalua
         .prepared = expansion->prepared,
         .innermost = expansion->level.field[row],
         .evaluator = evaluator,
+        .light = expansion->light,
     };
 }
 

@@ -20,6 +20,7 @@ typedef struct FrExpansion {
     GArray *fields;       ///< FrField
     uint32_t depth;       ///< of this level, from 0
     const struct FrTwins *twins;       ///< instances of the last build; NULL
+    const FrLightField *light;         ///< that Worlds sample; NULL
     const struct FrGrafting *grafting; ///< what stands at this level's grafts
     const struct FrEdits *edits;       ///< by hand; NULL: none
     uint64_t *places; ///< of the next level, for fr_pgraph_path(); NULL: not asked for

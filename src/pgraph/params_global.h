@@ -39,6 +39,8 @@
     X(FORMULA, light_x, "0", 0, 0, "", "x y z", "towards the light at the point x, y, z")          \
     X(FORMULA, light_y, "0", 0, 0, "", "x y z", "the same along y")                                \
     X(FORMULA, light_z, "1", 0, 0, "", "x y z", "the same along z")                                \
+    X(SWITCH, sampled, "no", 0, 1, "", "",                                                         \
+      "the light is that of a scene with a `<light>`, where the plant stands")                     \
     X(REAL, step, "0.1", 0.0001, 1000, "m", "", "stems get an internode at least every so far")
 
 #define FR_FORCE_PARAMS(X)                                                                         \

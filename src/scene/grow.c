@@ -1,4 +1,5 @@
 /// One plant built by the engine of its definition.
+#include "scene/grow.h"
 #include "scene/find.h"
 
 #include <math.h>
@@ -43,14 +44,14 @@ static FrStatus grow_graft(void *data, const FrGraftWish *wish, const FrContext 
 }
 
 static FrStatus grow_pgraph(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
-                            double time, const FrContext *context, FrScenePlant *made,
-                            FrPgraphCounts *counts) {
+                            double time, const FrLightField *light, const FrContext *context,
+                            FrScenePlant *made, FrPgraphCounts *counts) {
     uint64_t own_seed = seed < 0 ? definition->seed : (uint64_t)seed;
     FrPgraph *reseeded = own_seed == definition->seed && isnan(time)
                              ? NULL
                              : fr_document_reseed(document, definition, own_seed, time);
     const FrPgraph *graph = reseeded == NULL ? definition->pgraph : reseeded;
-    FrGraft graft = {(FrDocument *)document, grow_graft}; // which only reads it
+    FrGraft graft = {(FrDocument *)document, grow_graft, light}; // which only reads it
     FrStatus status = fr_pgraph_build_grafted(graph, &graft, context, &made->plant, counts);
     if (status == FR_OK) {
         guint components = made->plant->components->len;
@@ -67,6 +68,13 @@ static FrStatus grow_pgraph(const FrDocument *document, const FrPlantDef *defini
 FrStatus fr_scene_grow(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
                        double time, const FrContext *context, FrScenePlant *plant,
                        FrPgraphCounts *counts) {
+    return fr_scene_grow_in_light(document, definition, seed, time, NULL, context, plant, counts);
+}
+
+FrStatus fr_scene_grow_in_light(const FrDocument *document, const FrPlantDef *definition,
+                                int64_t seed, double time, const FrLightField *light,
+                                const FrContext *context, FrScenePlant *plant,
+                                FrPgraphCounts *counts) {
     FR_ASSERT(definition->kind != FR_PLANT_VARIED);
     *plant = (FrScenePlant){0};
     if (definition->kind == FR_PLANT_LSYSTEM) {
@@ -76,7 +84,7 @@ FrStatus fr_scene_grow(const FrDocument *document, const FrPlantDef *definition,
         return grow_lsystem(definition, seed, context, plant);
     }
     FrPgraphCounts own = {0};
-    FrStatus status = grow_pgraph(document, definition, seed, time, context, plant,
+    FrStatus status = grow_pgraph(document, definition, seed, time, light, context, plant,
                                   counts == NULL ? &own : counts);
     g_free(own.by_component);
     return status;

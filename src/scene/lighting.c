@@ -244,6 +244,11 @@ FrStatus fr_lighting_query(FrLighting *lighting, const vec3s *points, size_t cou
     return fr_light_query(lighting->light, points, count, context, answers);
 }
 
+FrStatus fr_lighting_field(FrLighting *lighting, const FrLightPlace *place, vec3s min, vec3s max,
+                           uint32_t cells, const FrContext *context, FrLightField **field) {
+    return fr_light_field_new(lighting->light, place, min, max, cells, context, field);
+}
+
 void fr_lighting_forget(FrLighting *lighting) {
     fr_light_forget(lighting->light);
 }

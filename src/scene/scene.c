@@ -2,6 +2,7 @@
 #include "scene/growing.h"
 #include "scene/obstacles.h"
 #include "scene/rebuild.h"
+#include "scene/sampled.h"
 #include "scene/varied.h"
 
 #include <math.h>
@@ -19,6 +20,7 @@ typedef struct Build {
     uint64_t bytes;
     FrGrowing *growing;
     FrSceneParts *parts; ///< NULL
+    FrSampled *sampled;
 } Build;
 
 static void clear_plant(void *data) {
@@ -184,6 +186,10 @@ static FrStatus stand_plant(Build *build, const FrPlantDef *definition, int64_t 
         return fr_growing_add(build->growing, build->scene, definition, seed, stand,
                               build->context);
     }
+    if (fr_sampled_is_wanted(build->scene, definition)) {
+        fr_sampled_add(build->sampled, build->scene, definition, seed_of(build, own_seed), stand);
+        return FR_OK;
+    }
     FrStatus status = use_plant(build, definition, own_seed, &stand->plant);
     if (status == FR_OK) {
         g_array_append_val(build->scene->stands, *stand);
@@ -303,7 +309,8 @@ static FrStatus build_scene(const FrDocument *document, int64_t seed, double tim
                    .seed = seed,
                    .time = time,
                    .growing = fr_growing_new(),
-                   .parts = parts};
+                   .parts = parts,
+                   .sampled = fr_sampled_new()};
     const GPtrArray *plants = fr_document_plants(document);
     for (guint i = 0; i < plants->len; i++) {
         FrPlantDef *definition = g_ptr_array_index(plants, i);
@@ -314,9 +321,13 @@ static FrStatus build_scene(const FrDocument *document, int64_t seed, double tim
         status = build_obstacles(&build);
     }
     if (status == FR_OK) {
+        status = fr_sampled_build(build.sampled, document, build.scene, context);
+    }
+    if (status == FR_OK) {
         status = fr_growing_run(build.growing, build.scene, context);
     }
     fr_growing_free(build.growing);
+    fr_sampled_free(build.sampled);
     g_hash_table_unref(build.definitions);
     g_hash_table_unref(build.built);
     g_hash_table_unref(build.varied);

@@ -1,0 +1,12 @@
+/// @file grow.h
+/// One plant in the light of its scene. Private to scene.
+#pragma once
+
+#include "frond/light_field.h"
+#include "frond/scene.h"
+
+/// As fr_scene_grow(); Worlds that sample the light find it in `light`, in the plant's coordinates.
+FR_MUST_USE FrStatus fr_scene_grow_in_light(const FrDocument *document,
+                                            const FrPlantDef *definition, int64_t seed, double time,
+                                            const FrLightField *light, const FrContext *context,
+                                            FrScenePlant *plant, FrPgraphCounts *counts);
