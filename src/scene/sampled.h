@@ -10,10 +10,10 @@ typedef struct FrSampled FrSampled;
 bool fr_sampled_is_wanted(const FrScene *scene, const FrPlantDef *definition);
 FrSampled *fr_sampled_new(void);
 void fr_sampled_free(FrSampled *sampled);
-/// A plant at `stand`; it becomes the last of the scene's plants, empty as yet. `seed` < 0: its
-/// own.
+/// A plant at `stand`; it becomes the last of the scene's plants, empty as yet. A `seed` < 0 is its
+/// own, and so is a `time` of its clock that is NAN.
 void fr_sampled_add(FrSampled *sampled, FrScene *scene, const FrPlantDef *definition, int64_t seed,
-                    const FrStand *stand);
+                    double time, const FrStand *stand);
 /// Builds them one after the other, each in the light that the scene leaves it so far.
 FR_MUST_USE FrStatus fr_sampled_build(FrSampled *sampled, const FrDocument *document,
                                       FrScene *scene, const FrContext *context);

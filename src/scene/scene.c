@@ -187,7 +187,8 @@ static FrStatus stand_plant(Build *build, const FrPlantDef *definition, int64_t 
                               build->context);
     }
     if (fr_sampled_is_wanted(build->scene, definition)) {
-        fr_sampled_add(build->sampled, build->scene, definition, seed_of(build, own_seed), stand);
+        fr_sampled_add(build->sampled, build->scene, definition, seed_of(build, own_seed),
+                       build->time, stand);
         return FR_OK;
     }
     FrStatus status = use_plant(build, definition, own_seed, &stand->plant);
