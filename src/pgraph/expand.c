@@ -404,10 +404,9 @@ static FrStatus expand_or_share(FrBuild *build) {
     if (twins.is_all) {
         fr_kept_share_rows(made, build->last);
         made->taken_over = build->last->counts.instances;
-        *build->counts = build->last->counts;
-        build->counts->by_component = g_memdup2(build->last->counts.by_component,
-                                                MAX(fr_pgraph_count(build->expansion.graph), 1) *
-                                                    sizeof *build->counts->by_component);
+        build->counts->instances = build->last->counts.instances;
+        memcpy(build->counts->by_component, build->last->counts.by_component,
+               fr_pgraph_count(build->expansion.graph) * sizeof *build->counts->by_component);
     } else {
         build->levels = g_array_new(FALSE, FALSE, sizeof(FrLevel));
         build->expansion.twins = &twins;

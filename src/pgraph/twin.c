@@ -87,7 +87,7 @@ static Block block_of(const uint32_t *now, const uint32_t *before, uint32_t row,
 }
 
 static void copy_rows(void *to, const void *from, const FrColumns *columns, Block block) {
-    for (size_t c = 0; c < columns->count; c++) {
+    for (size_t c = 0; c < columns->count && block.count > 0; c++) {
         const FrColumn *column = &columns->columns[c];
         memcpy((char *)fr_column_data(to, column) + (size_t)block.first * column->width,
                (const char *)fr_column_data(from, column) + (size_t)block.from * column->width,
