@@ -59,6 +59,13 @@ static void add_query(Pass *pass, uint32_t *module, uint64_t asked, uint64_t ori
     g_array_append_val(pass->queries, query);
 }
 
+/// s(x,y) and s(x,y,z), which cpfg fills as ?P where it fills any.
+static bool is_old_query(const Pass *pass, uint32_t head) {
+    unsigned count = fr_lhead_count(head);
+    return fr_lhead_symbol(head) == 's' && (count == 2 || count == 3) && !pass->turtle.is_raw &&
+           pass->turtle.skip == 0 && !pass->derivation->system->is_paper;
+}
+
 static bool take(void *data, const uint32_t *module, uint64_t origin) {
     Pass *pass = data;
     FrLstring *string = pass->derivation->string;
@@ -80,6 +87,8 @@ static bool take(void *data, const uint32_t *module, uint64_t origin) {
             add_query(pass, own, count >= 64 ? UINT64_MAX : (UINT64_C(1) << count) - 1, origin);
         } else if (asked != 0) {
             add_query(pass, own, asked, origin);
+        } else if (is_old_query(pass, *module)) {
+            fill_vector(own, pose->position);
         }
     }
     return fr_lturtle_take(&pass->turtle, module, origin);

@@ -182,6 +182,12 @@ static void test_homomorphism_of_calls(void) {
     end(&d);
 }
 
+static void test_old_query(void) {
+    check_cpfg("", "?P(0,0)F(2)s(7,7)s(7,7,7)s(7)~s(7,7)X", "X --> X", 1,
+               "?P(0,0)F(2)s(0,2)s(0,2,0)s(7)~s(7,7)X");
+    check_cpfg("", "F(2)s(7,7)X", "X --> X", 1, "F(2)s(7,7)X");
+}
+
 static void test_stop(void) {
     const char *head = "Start: { n = 0; }\nEndEach: { n = n+1; if (n == 2) { stop(1); }\n"
                        "if (n == 4) { stop(0); } }\n";
@@ -206,6 +212,7 @@ int main(int argc, char **argv) {
         {"fractions of indices count", test_fractions_of_indices},
         {"a homomorphism with a seed has its own stream", test_homomorphism_seed},
         {"a called L-system has its own homomorphism", test_homomorphism_of_calls},
+        {"s with two or three parameters is filled as ?P", test_old_query},
         {"stop(1) goes on", test_stop},
     };
     g_test_init(&argc, &argv, NULL);
