@@ -140,7 +140,8 @@ static void read_tropism(Reader *reader, const char *value, bool is_torque) {
     g_array_append_val(reader->view->tropisms, tropism);
 }
 
-static FrSource *open_companion(Reader *reader, const char *name) {
+/// Surfaces that are not there are left out, as cpfg does; anything else is an error.
+static FrSource *open_companion(Reader *reader, const char *name, bool is_needed) {
     char *path = reader->folder == NULL || g_path_is_absolute(name)
                      ? g_strdup(name)
                      : g_build_filename(reader->folder, name, NULL);
@@ -151,10 +152,10 @@ static FrSource *open_companion(Reader *reader, const char *name) {
                                 reader->context->diags, &status);
         reader->status = MAX(reader->status, status);
     } else {
-        fr_diags_add(reader->context->diags, FR_ERROR, "missing-file",
+        fr_diags_add(reader->context->diags, is_needed ? FR_ERROR : FR_WARNING, "missing-file",
                      fr_ltext_span(reader->text, reader->begin, reader->end),
                      "the file '%s' is not there", name);
-        reader->status = MAX(reader->status, FR_ERR_DOCUMENT);
+        reader->status = MAX(reader->status, is_needed ? FR_ERR_DOCUMENT : FR_OK);
     }
     g_free(path);
     return source;
@@ -173,7 +174,7 @@ static bool read_file(Reader *reader, const char *label, char **words, guint cou
         warn(reader, "view-value", "a file name is missing: ", label);
         return true;
     }
-    FrSource *source = open_companion(reader, words[file]);
+    FrSource *source = open_companion(reader, words[file], !is_surface);
     if (source == NULL) {
         return true;
     }
@@ -188,7 +189,8 @@ static bool read_file(Reader *reader, const char *label, char **words, guint cou
                                         samples);
     } else {
         double size = count > 2 ? g_ascii_strtod(words[2], NULL) : 1;
-        int s = count > 3 ? atoi(words[3]) : 0, t = count > 4 ? atoi(words[4]) : 0;
+        // One number alone is a texture.
+        int s = count > 4 ? atoi(words[3]) : 0, t = count > 4 ? atoi(words[4]) : 0;
         is_read = *label == 't'
                       ? fr_lcompanion_triangles(source, view->surfaces, *words[0], size)
                       : fr_lcompanion_patches(source, view->surfaces, *words[0], size, s, t);
@@ -217,7 +219,7 @@ static bool read_numbers(FrLview *view, const char *label, const char *value) {
         if (strcmp(label, plain[i].label) == 0) {
             bool is_zero_scale = n[0] == 0 && strchr("is", *label) != NULL && strstr(label, "scal");
             if (count > 0 && isfinite(n[0]) && !is_zero_scale) {
-                *plain[i].to = n[0];
+                *plain[i].to = (double)(float)n[0];
             }
             return true;
         }
@@ -232,7 +234,7 @@ static bool read_numbers(FrLview *view, const char *label, const char *value) {
     } else if (strcmp(label, "contour sides") == 0) {
         view->contour_sides = (uint32_t)CLAMP(n[0], 3, 128);
     } else if (strcmp(label, "polygonization level") == 0) {
-        view->contour_sides = 1U << (int)(CLAMP(n[0], 1, 6) + 1);
+        view->contour_sides = MAX(1U << (int)(CLAMP(n[0], 0, 6) + 1), 3);
     } else if (strcmp(label, "initial color") == 0) {
         view->colour = (int)CLAMP(n[0], 0, 255);
     } else if (strcmp(label, "color increment") == 0) {
@@ -264,7 +266,7 @@ static bool read_switches(FrLview *view, const char *label, const char *value) {
     } else if (strcmp(label, "box") == 0) {
         view->is_framed = true;
     } else if (strcmp(label, "interpretation past %") == 0) {
-        view->draws_past_cut = is_on(value);
+        view->draws_past_cut = !g_str_has_prefix(value, "off");
     } else if (strcmp(label, "environment display") == 0) {
         view->answers_before = g_str_has_prefix(value, "before");
     } else {

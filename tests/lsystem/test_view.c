@@ -79,6 +79,9 @@ static void test_unknown(void) {
     fr_lview_free(view);
     g_assert_null(read_view("contour: 1 nowhere.con\n", NULL, diags, FR_ERR_DOCUMENT));
     g_assert_cmpstr(fr_diags_get(diags, 1)->code, ==, "missing-file");
+    FrLview *without = read_view("surface: l nowhere.s 1\n", NULL, diags, FR_OK);
+    g_assert_cmpint(fr_diags_get(diags, 2)->severity, ==, FR_WARNING);
+    fr_lview_free(without);
     fr_diags_free(diags);
 }
 
