@@ -123,7 +123,7 @@ const FrGraphEdit *fr_instance_edit(const FrExpansion *expansion, uint32_t row) 
 }
 
 // A pose turned and scaled by hand. What is no stem bends at its base.
-static FrPose edited(const FrExpansion *expansion, uint32_t row, FrPose pose) {
+static G_GNUC_NO_INLINE FrPose edited(const FrExpansion *expansion, uint32_t row, FrPose pose) {
     const FrGraphEdit *edit = fr_instance_edit(expansion, row);
     if (edit == NULL) {
         return pose;
@@ -184,7 +184,8 @@ FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator 
 
 FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, double scale) {
     const FrLevel *level = &expansion->level;
-    const FrGraphEdit *edit = fr_instance_edit(expansion, row);
+    const FrGraphEdit *edit =
+        level->edit[row] != FR_EDIT_NOWHERE ? fr_instance_edit(expansion, row) : NULL;
     return (FrStemBase){
         .bend = edit != NULL ? edit->params.bend : 0,
         .bend_aside = edit != NULL ? edit->params.bend_aside : 0,
@@ -222,8 +223,8 @@ uint32_t fr_instance_look(const FrExpansion *expansion, uint32_t row) {
 }
 
 // Hands a child its place on the paths of edits, and does what makes it another.
-static void write_edit(const FrExpansion *expansion, uint32_t row, uint32_t component,
-                       const FrChild *child, uint32_t at) {
+static G_GNUC_NO_INLINE void write_edit(const FrExpansion *expansion, uint32_t row,
+                                        uint32_t component, const FrChild *child, uint32_t at) {
     const FrLevel *level = &expansion->level;
     const FrLevel *next = &expansion->next;
     FrStep step = {

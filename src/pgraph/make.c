@@ -84,11 +84,12 @@ uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t org
     organs->rotation[organ] = pose.rotation;
     organs->scale[organ] = (float)fmax(pose.scale, 1e-9);
     organs->shape[organ] = shape;
-    organs->material[organ] = fr_instance_look(expansion, row);
+    organs->material[organ] = expansion->ramps == NULL ? fr_instance_material(expansion, row)
+                                                       : fr_instance_look(expansion, row);
     organs->component[organ] = fr_instance_stage(expansion, row)->component;
     organs->deformer[organ] = expansion->level.deformer[row];
     organs->path[organ] = expansion->level.key[row];
-    if (is_hidden(expansion, row)) {
+    if (expansion->level.edit[row] != FR_EDIT_NOWHERE && is_hidden(expansion, row)) {
         organs->flags[organ] |= FR_HIDDEN;
     }
     return organ;

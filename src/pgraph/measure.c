@@ -53,10 +53,22 @@ static void measure_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator
     fr_stem_clear(&stem);
 }
 
-// By hand.
-static bool is_pruned(const FrExpansion *expansion, uint32_t row) {
+static G_GNUC_NO_INLINE bool is_pruned(const FrExpansion *expansion, uint32_t row) {
     const FrGraphEdit *edit = fr_instance_edit(expansion, row);
     return edit != NULL && edit->params.prune;
+}
+
+// What has no life of its own and no edit costs two comparisons.
+static inline bool is_absent(const FrExpansion *expansion, uint32_t row, const FrPrepared *prepared,
+                             FrEvaluator *evaluator) {
+    const FrLevel *level = &expansion->level;
+    bool lives = level->clock[row] >= 0;
+    if (prepared->is_timed) {
+        lives = fr_instance_lives(expansion, row, evaluator);
+    } else {
+        level->age[row] = level->clock[row];
+    }
+    return !lives || (level->edit[row] != FR_EDIT_NOWHERE && is_pruned(expansion, row));
 }
 
 void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
@@ -68,13 +80,13 @@ void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator
     level->axis_count[row] = 0;
     level->organ_count[row] = 0;
     level->global_count[row] = 0;
-    level->is_absent[row] =
-        !fr_instance_lives(expansion, row, evaluator) || is_pruned(expansion, row);
+    level->is_absent[row] = is_absent(expansion, row, prepared, evaluator);
     if (level->is_absent[row]) {
         return;
     }
-    level->ramp[row] =
-        expansion->ramps != NULL ? fr_ramp_step(expansion, row, evaluator) : (uint8_t)0;
+    if (expansion->ramps != NULL) {
+        level->ramp[row] = fr_ramp_step(expansion, row, evaluator);
+    }
     level->global_count[row] = fr_is_global(prepared->kind);
     switch (prepared->kind) {
     case FR_COMPONENT_HORN:

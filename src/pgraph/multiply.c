@@ -27,6 +27,12 @@ static bool is_on_surface(const FrTreeParams *tree, const FrPrepared *child) {
     return !child->is_stem && !child->is_point_set;
 }
 
+// Where along what has grown the place is.
+static inline double place_now(const Branching *branching) {
+    double reach = branching->stem->reach;
+    return reach < 1 ? fmin(branching->at / reach, 1) : branching->at;
+}
+
 // The point of the stem at a place, as an offset on the internode that holds it.
 static void stand_at(Branching *branching, uint32_t place, FrPose *site) {
     const FrStem *stem = branching->stem;
@@ -38,7 +44,7 @@ static void stand_at(Branching *branching, uint32_t place, FrPose *site) {
     if (stem->internodes == 0) {
         return;
     }
-    double back, at = fmin(branching->at / stem->reach, 1);
+    double back, at = place_now(branching);
     uint32_t k = fr_limb_node_of(stem, branching->limb, at, place, &back);
     uint32_t node = branching->expansion->level.node_count[branching->row];
     node += branching->limb->first + k;
@@ -89,7 +95,10 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
     FrKey stem_key = branching->limb->axis > 0 ? branching->limb->key : level->key[branching->row];
     FrKey key = fr_key_child(stem_key, b);
     place->vars.key = key;
-    double age = fr_stem_age_at(stem, (double)level->age[branching->row], branching->at);
+    double age = (double)level->age[branching->row];
+    if (stem->growth_time > 0) {
+        age = fr_stem_age_at(stem, age, branching->at);
+    }
     if (stem->prepared->varies) {
         fr_place_enter(place, evaluator, level, branching->row, b, places->branches, key);
         place->vars.value[FR_VAR_x] = branching->at;
@@ -104,7 +113,7 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
     azimuth +=
         jitter != 0 ? jitter * fr_random_signed(key, fr_purpose(FR_TREE_azimuth_jitter), 1) : 0;
     versors turn = fr_turned_zyz(azimuth, FR_GET(branching_angle), PI / 2 + FR_GET(roll));
-    double now = fmin(branching->at / stem->reach, 1);
+    double now = place_now(branching);
     double radius = fr_limb_radius(stem, branching->limb, now);
     azimuth -= 2 * PI * floor(azimuth / (2 * PI));
     *reach = (vec3s){{(float)radius * cosf((float)azimuth),

@@ -247,9 +247,6 @@ static void measure_growth(FrStem *stem, FrEvaluator *evaluator) {
 }
 
 double fr_stem_age_at(const FrStem *stem, double age, double at) {
-    if (stem->growth_time <= 0) {
-        return age;
-    }
     const FrBasicParams *basic = stem->prepared->params;
     double part = at * stem->whole / stem->reach; // of all that might be there
     double since = age - stem->growth_time * fr_growth_when(basic->growth_curve, part);

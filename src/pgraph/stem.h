@@ -75,8 +75,8 @@ typedef struct FrStem {
 /// Measures the stem of the instance whose variables are set; to be cleared.
 FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrStemBase base);
 void fr_stem_clear(FrStem *stem);
-/// Age of what stands at a place of the stem, whose own age is given: it is born when the tip comes
-/// there; less than 0 before.
+/// Age of what stands at a place of a growing stem, whose own age is given: it is born when the tip
+/// comes there; less than 0 before.
 double fr_stem_age_at(const FrStem *stem, double age, double at);
 /// Radius at `at`, 0 at the base to 1 at the tip, m.
 double fr_stem_radius(const FrStem *stem, double at);
