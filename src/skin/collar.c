@@ -282,12 +282,12 @@ static uint32_t gather_back(const FrPlan *plan, uint32_t node, float enough,
     return count;
 }
 
-// The rings from the tip of `node` on, after at least one in `rings[-1]`.
+// The rings from the tip of `node` on, after at least one in `rings[-1]`. A node may add two.
 static uint32_t gather_forth(const FrPlan *plan, uint32_t node, float enough,
                              struct FrLimbRing *rings) {
     const FrNodes *nodes = &plan->plant->nodes;
     uint32_t count = 0;
-    for (int walk = 0; count < FR_LIMB_MOST / 2 && walk <= WALK_MOST; walk++) {
+    for (int walk = 0; count + 1 < FR_LIMB_MOST / 2 && walk <= WALK_MOST; walk++) {
         bool is_end = fr_plan_next(plan, node) == FR_NONE;
         if (plan->keep[node] == FR_KEEP_SHOULDER) {
             struct FrLimbRing *before = &rings[(int)count - 1];

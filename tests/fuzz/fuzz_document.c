@@ -29,6 +29,20 @@ static void check_text(const FrDocument *document, const uint8_t *data, size_t s
     g_free(text);
 }
 
+/// The same plant at every level of detail that a viewer may ask for.
+static void skin(const FrScene *scene, const FrContext *context) {
+    for (guint i = 0; i < scene->plants->len; i++) {
+        FrSkinParams params = fr_skin_default();
+        for (params.lod = 0; params.lod < 4; params.lod++) {
+            FrMesh *mesh;
+            FrStatus status = fr_skin_plant(g_array_index(scene->plants, FrScenePlant, i).plant,
+                                            &params, FR_UP_Y, context, &mesh);
+            FR_ASSERT((status == FR_OK) == (mesh != NULL));
+            fr_mesh_free(mesh);
+        }
+    }
+}
+
 static void build(const FrDocument *document, const FrContext *context) {
     FrScene *scene = NULL;
     FrStatus status = fr_scene_build(document, -1, context, &scene);
@@ -38,6 +52,7 @@ static void build(const FrDocument *document, const FrContext *context) {
         double min[3], max[3];
         fr_scene_bounds(scene, min, max);
         fr_scene_digest(scene);
+        skin(scene, context);
         fr_scene_free(scene);
     }
 }
