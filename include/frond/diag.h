@@ -51,6 +51,10 @@ typedef struct FrSpan {
     uint32_t end;
 } FrSpan;
 
+/// fr_source_load() for a name relative to `folder`, or absolute; what is not there is reported at
+/// `span`, where it was named.
+FR_API FrSource *fr_source_load_beside(const char *name, const char *folder, FrSpan span,
+                                       uint64_t max_bytes, FrDiags *diags, FrStatus *status);
 /// A span that starts `begin` bytes into `outer` and ends `end` bytes into it.
 FR_API FrSpan fr_span_inside(FrSpan outer, size_t begin, size_t end);
 

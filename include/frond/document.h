@@ -38,6 +38,7 @@ FR_API FR_MUST_USE FrStatus fr_document_set(FrDocument *document, const char *pa
 typedef enum FrPlantKind {
     FR_PLANT_PGRAPH,
     FR_PLANT_LSYSTEM,
+    FR_PLANT_SKELETON,
     FR_PLANT_VARIED, ///< another plant of the document, varied
 } FrPlantKind;
 
@@ -68,6 +69,7 @@ typedef struct FrPlantDef {
     GPtrArray *sliders;      ///< FrSlider *, in the order of the document
     FrPgraph *pgraph;        ///< for FR_PLANT_PGRAPH, else empty
     FrLmodel *lsystem;       ///< for FR_PLANT_LSYSTEM, else NULL
+    FrSkeleton *skeleton;    ///< for FR_PLANT_SKELETON, else NULL
     FrVary *vary; ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
     FrSpan span;
 } FrPlantDef;

@@ -20,33 +20,9 @@
 
 #include "frond/param.h"
 #include "frond/plant.h"
+#include "frond/skeleton.h"
 
 #include <cglm/types-struct.h>
-
-// ---- skeletons --------------------------------------------------------------------------------
-
-/// A line of a skeleton, such as a cylinder fitted to a laser scan.
-typedef struct FrSegment {
-    vec3s from, to; ///< m
-    float radius;   ///< m, at both ends
-} FrSegment;
-
-/// The lines of a plant: one for every internode, and one from the tip of its bearer to its origin
-/// for every branch that begins elsewhere. Reads the cache. Free the array with g_free().
-FR_API FrSegment *fr_skeleton_segments(const FrPlant *plant, size_t *count);
-/// A plant from lines alone, in any order and direction. Ends nearer than `tolerance` (< 0: 1e-5 of
-/// the height) are one joint. What is connected is one stem with its branches, rooted in its lowest
-/// end; where lines part, the axis goes on along the thickest, then the straightest. Axes of order
-/// 0 are of the component `stem`, the others of `branch`. Lines that close a loop or have no length
-/// are left out with a warning.
-FR_API FR_MUST_USE FrStatus fr_skeleton_weld(const FrSegment *segments, size_t count,
-                                             double tolerance, const char *name,
-                                             const FrContext *context, FrPlant **plant);
-/// Reads a table of lines: `x y z x y z r` a row, from the first end to the second, numbers
-/// separated by blanks, commas or semicolons; `#` begins a comment, the radius may be left out
-/// (then 0.01). Frees the array with g_free().
-FR_API FR_MUST_USE FrStatus fr_skeleton_read(const FrSource *source, const FrContext *context,
-                                             FrSegment **segments, size_t *count);
 
 // ---- selection --------------------------------------------------------------------------------
 

@@ -157,6 +157,20 @@ FrSource *fr_source_load(const char *path, uint64_t max_bytes, FrDiags *diags, F
     return source;
 }
 
+FrSource *fr_source_load_beside(const char *name, const char *folder, FrSpan span,
+                                uint64_t max_bytes, FrDiags *diags, FrStatus *status) {
+    char *path = g_path_is_absolute(name) ? g_strdup(name) : g_build_filename(folder, name, NULL);
+    FrSource *source = NULL;
+    if (g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
+        source = fr_source_load(path, max_bytes, diags, status);
+    } else {
+        fr_diags_add(diags, FR_ERROR, "missing-file", span, "the file '%s' is not there", name);
+        *status = FR_ERR_DOCUMENT;
+    }
+    g_free(path);
+    return source;
+}
+
 FrSource *fr_source_ref(FrSource *source) {
     if (source != NULL) {
         atomic_fetch_add(&source->references, 1);

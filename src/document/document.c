@@ -9,6 +9,7 @@ static void free_plant(void *data) {
     fr_lmodel_free(plant->lsystem);
     fr_number_clear(&plant->season);
     fr_number_clear(&plant->health);
+    fr_skeleton_free(plant->skeleton);
     fr_vary_free(plant->vary);
     g_ptr_array_unref(plant->sliders);
     g_free(plant->id);

@@ -88,8 +88,8 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
     [FR_ELEMENT_PLANT] = {.name = "plant",
                           .table = &plant_table,
                           .has_id = true,
-                          .children =
-                              SET(SLIDER) | SET(PGRAPH) | SET(EDITS) | SET(LSYSTEM) | SET(VARY)},
+                          .children = SET(SLIDER) | SET(PGRAPH) | SET(EDITS) | SET(LSYSTEM) |
+                                      SET(SKELETON) | SET(VARY)},
     [FR_ELEMENT_SLIDER] = {.name = "slider", .table = &slider_table, .has_id = true},
     [FR_ELEMENT_PGRAPH] = {.name = "pgraph",
                            .meaning = "linked components that are expanded to a plant "
@@ -110,6 +110,7 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                           .is_once = true,
                           .children = SET(EDIT)},
     [FR_ELEMENT_EDIT] = {.name = "edit", .required = "at"},
+    [FR_ELEMENT_SKELETON] = {.name = "skeleton", .is_once = true, .has_text = true},
     [FR_ELEMENT_VARY] = {.name = "vary",
                          .is_once = true,
                          .required = "base",
@@ -144,6 +145,8 @@ FrElement fr_element(FrElementId id) {
         element.table = fr_lsystem_table();
     } else if (id == FR_ELEMENT_EDIT) {
         element.table = fr_edit_table();
+    } else if (id == FR_ELEMENT_SKELETON) {
+        element.table = fr_skeleton_table();
     } else if (id == FR_ELEMENT_VARY) {
         element.table = fr_vary_table();
     } else if (id == FR_ELEMENT_STROKE) {

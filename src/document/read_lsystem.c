@@ -83,15 +83,17 @@ static void read_colours(FrReader *reader, uint32_t node, const char *text, FrLm
     fr_lmodel_set_colours(model, materials, count);
 }
 
-/// The text of the L-system, unless a file has it.
-static FrSource *read_text(FrReader *reader, uint32_t node, const FrLsystemParams *params) {
+FrSource *fr_read_own_source(FrReader *reader, uint32_t node, const char *file) {
     FrSource *text = fr_read_source(reader, node);
-    if (text == NULL && params->file == NULL) {
-        fr_read_error(reader, "missing-text", reader->tree->nodes[node].name,
-                      "this <lsystem> has neither a text nor a file");
-    } else if (text != NULL && params->file != NULL) {
+    FrXmlRange name = reader->tree->nodes[node].name;
+    if (text == NULL && file == NULL) {
+        fr_read_error(reader, "missing-text", name, "this <%.*s> has neither a text nor a file",
+                      (int)(name.end - name.begin),
+                      fr_source_text(reader->tree->source, NULL) + name.begin);
+    } else if (text != NULL && file != NULL) {
         fr_read_error(reader, "two-definitions", fr_read_value_place(reader, node, "file"),
-                      "this <lsystem> has a text already");
+                      "this <%.*s> has a text already", (int)(name.end - name.begin),
+                      fr_source_text(reader->tree->source, NULL) + name.begin);
     }
     return text;
 }
@@ -111,7 +113,7 @@ FrLmodel *fr_read_lsystem(FrReader *reader, uint32_t node) {
     fr_lmodel_set_materials(model, fr_read_material(reader, node, "material", params.material),
                             fr_read_material(reader, node, "leaf-material", params.leaf_material));
     read_colours(reader, node, params.colours, model);
-    FrSource *text = read_text(reader, node, &params);
+    FrSource *text = fr_read_own_source(reader, node, params.file);
     if (reader->status == FR_OK) {
         FrXmlRange place = fr_read_value_place(reader, node, "file");
         fr_read_note(reader, fr_lmodel_compile(model, text, reader->document->folder,

@@ -10,6 +10,7 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
         FrPlantKind kind;
     } engines[] = {{FR_ELEMENT_PGRAPH, FR_PLANT_PGRAPH},
                    {FR_ELEMENT_LSYSTEM, FR_PLANT_LSYSTEM},
+                   {FR_ELEMENT_SKELETON, FR_PLANT_SKELETON},
                    {FR_ELEMENT_VARY, FR_PLANT_VARIED}};
     uint32_t definition = FR_NONE;
     const char *first = NULL;
@@ -31,7 +32,7 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
     }
     if (definition == FR_NONE) {
         fr_read_error(reader, "missing-element", reader->tree->nodes[node].name,
-                      "the plant '%s' has no <pgraph>, no <lsystem> and no <vary>", plant->id);
+                      "the plant '%s' has no <pgraph>, <lsystem>, <skeleton> or <vary>", plant->id);
     } else if (plant->kind == FR_PLANT_VARIED) {
         if (plant->sliders->len > 0) {
             fr_read_error(reader, "misplaced-element", reader->tree->nodes[definition].name,
@@ -40,6 +41,8 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
         plant->vary = fr_read_vary(reader, definition);
     } else if (plant->kind == FR_PLANT_LSYSTEM) {
         plant->lsystem = fr_read_lsystem(reader, definition);
+    } else if (plant->kind == FR_PLANT_SKELETON) {
+        plant->skeleton = fr_read_skeleton(reader, definition);
     } else {
         fr_read_pgraph(reader, definition, plant->pgraph);
         fr_read_check_sliders(reader, node, plant->pgraph);

@@ -53,6 +53,8 @@ char *fr_read_define(FrReader *reader, uint32_t node, FrNumber *value);
 void fr_read_check_grafts(FrReader *reader);
 /// Reads the `<edits>` of a plant whose graph has been read.
 void fr_read_edits(FrReader *reader, uint32_t plant, FrPgraph *graph);
+/// Reads a `<skeleton>` and its table.
+FrSkeleton *fr_read_skeleton(FrReader *reader, uint32_t node);
 /// Reads a `<vary>`; NULL after an error that leaves nothing of it.
 FrVary *fr_read_vary(FrReader *reader, uint32_t node);
 /// Reports varied plants whose base is no other plant.
@@ -69,6 +71,9 @@ FrMaterial *fr_read_material(FrReader *reader, uint32_t node, const char *attrib
 /// The text within an element as a source of its own, whose places are those of the document; NULL
 /// if there is nothing but blanks.
 FrSource *fr_read_source(const FrReader *reader, uint32_t node);
+/// The same for an element that has either a text or a `file`, with an error if it has both or
+/// neither.
+FrSource *fr_read_own_source(FrReader *reader, uint32_t node, const char *file);
 /// The text within an element and its place, from its first to its last text or CDATA section.
 /// Free with g_free().
 char *fr_read_text(const FrReader *reader, uint32_t node, FrXmlRange *place);

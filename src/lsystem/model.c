@@ -141,17 +141,9 @@ void fr_lmodel_set_colours(FrLmodel *model, FrMaterial *const *materials, size_t
 
 static FrSource *load(const char *name, const char *folder, FrSpan span, const FrContext *context,
                       char **own_folder, FrStatus *status) {
-    char *path = g_path_is_absolute(name) ? g_strdup(name) : g_build_filename(folder, name, NULL);
-    FrSource *source = NULL;
-    if (g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
-        source = fr_source_load(path, context->limits.document_bytes, context->diags, status);
-    } else {
-        fr_diags_add(context->diags, FR_ERROR, "missing-file", span, "the file '%s' is not there",
-                     name);
-        *status = FR_ERR_DOCUMENT;
-    }
-    *own_folder = g_path_get_dirname(path);
-    g_free(path);
+    FrSource *source = fr_source_load_beside(name, folder, span, context->limits.document_bytes,
+                                             context->diags, status);
+    *own_folder = source == NULL ? NULL : g_path_get_dirname(fr_source_name(source));
     return source;
 }
 

@@ -65,6 +65,15 @@ static FrStatus grow_pgraph(const FrDocument *document, const FrPlantDef *defini
     return status;
 }
 
+static FrStatus grow_skeleton(const FrPlantDef *definition, const FrContext *context,
+                              FrScenePlant *made) {
+    FrStatus status = fr_skeleton_grow(definition->skeleton, definition->id, context, &made->plant);
+    if (status == FR_OK) {
+        made->by_component = g_new0(uint64_t, made->plant->components->len + 1);
+    }
+    return status;
+}
+
 FrStatus fr_scene_grow(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
                        double time, const FrContext *context, FrScenePlant *plant,
                        FrPgraphCounts *counts) {
@@ -77,11 +86,14 @@ FrStatus fr_scene_grow_in_light(const FrDocument *document, const FrPlantDef *de
                                 FrPgraphCounts *counts) {
     FR_ASSERT(definition->kind != FR_PLANT_VARIED);
     *plant = (FrScenePlant){0};
+    if (counts != NULL && definition->kind != FR_PLANT_PGRAPH) {
+        *counts = (FrPgraphCounts){0};
+    }
     if (definition->kind == FR_PLANT_LSYSTEM) {
-        if (counts != NULL) {
-            *counts = (FrPgraphCounts){0};
-        }
         return grow_lsystem(definition, seed, context, plant);
+    }
+    if (definition->kind == FR_PLANT_SKELETON) {
+        return grow_skeleton(definition, context, plant);
     }
     FrPgraphCounts own = {0};
     FrStatus status = grow_pgraph(document, definition, seed, time, light, context, plant,
