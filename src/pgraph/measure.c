@@ -17,7 +17,7 @@ static uint32_t count_children(const FrPrepared *prepared, FrEvaluator *evaluato
                        ? fr_scatter_count(prepared->params, evaluator)
                        : fr_value(evaluator, prepared->number, prepared->number_parameter);
     count = floor(count + 0.5) * prepared->number_times;
-    return count < MOST_CHILDREN ? (uint32_t)count : (uint32_t)MOST_CHILDREN;
+    return (double)count < MOST_CHILDREN ? (uint32_t)count : (uint32_t)MOST_CHILDREN;
 }
 
 static FrStem stem_of(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
@@ -32,7 +32,7 @@ static uint32_t count_branches(const FrStem *stem) {
     for (uint32_t l = 0; l < stem->limb_count; l++) {
         count += stem->limbs[l].end_branch - stem->limbs[l].first_branch;
     }
-    return count < MOST_CHILDREN ? (uint32_t)count : (uint32_t)MOST_CHILDREN;
+    return (double)count < MOST_CHILDREN ? (uint32_t)count : (uint32_t)MOST_CHILDREN;
 }
 
 static void measure_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
