@@ -17,6 +17,7 @@ typedef struct Sprout {
 struct FrGrowing {
     GPtrArray *sprouts; ///< Sprout *
     FrLighting *lighting;
+    uint64_t steps;   ///< at most
     uint64_t queries; ///< answered in this step
     FrEnvironment environment;
     const Sprout *asking;
@@ -100,8 +101,9 @@ static FrStatus answer(void *data, const FrLquery *queries, size_t count,
     return status;
 }
 
-FrGrowing *fr_growing_new(void) {
+FrGrowing *fr_growing_new(uint64_t steps) {
     FrGrowing *growing = g_new0(FrGrowing, 1);
+    growing->steps = steps;
     growing->sprouts = g_ptr_array_new_with_free_func(free_sprout);
     growing->environment = (FrEnvironment){growing, answer};
     return growing;
@@ -130,8 +132,9 @@ FrStatus fr_growing_add(FrGrowing *growing, FrScene *scene, const FrPlantDef *de
 
 // ---- steps ------------------------------------------------------------------------------------
 
-static bool is_growing(const Sprout *sprout) {
-    return fr_lderivation_step(sprout->derivation) < fr_lderivation_length(sprout->derivation) &&
+static bool is_growing(const FrGrowing *growing, const Sprout *sprout) {
+    uint64_t length = MIN(fr_lderivation_length(sprout->derivation), growing->steps);
+    return fr_lderivation_step(sprout->derivation) < length &&
            !fr_lderivation_is_stopped(sprout->derivation);
 }
 
@@ -168,7 +171,7 @@ static FrStatus ask_all(FrGrowing *growing, const FrContext *context) {
     for (guint i = 0; i < growing->sprouts->len && status == FR_OK; i++) {
         Sprout *sprout = g_ptr_array_index(growing->sprouts, i);
         growing->asking = sprout;
-        if (is_growing(sprout)) {
+        if (is_growing(growing, sprout)) {
             status = fr_lderivation_ask(sprout->derivation, context);
         }
     }
@@ -180,7 +183,7 @@ static FrStatus derive_all(FrGrowing *growing, const FrContext *context) {
     for (guint i = 0; i < growing->sprouts->len && status == FR_OK; i++) {
         Sprout *sprout = g_ptr_array_index(growing->sprouts, i);
         growing->asking = sprout;
-        if (is_growing(sprout)) {
+        if (is_growing(growing, sprout)) {
             status = fr_lderivation_run(sprout->derivation, 1, context);
         }
     }
@@ -235,7 +238,7 @@ static bool is_any_growing(const FrGrowing *growing, uint64_t *longest) {
     *longest = 1;
     for (guint i = 0; i < growing->sprouts->len; i++) {
         const Sprout *sprout = g_ptr_array_index(growing->sprouts, i);
-        is_any |= is_growing(sprout);
+        is_any |= is_growing(growing, sprout);
         *longest = MAX(*longest, fr_lderivation_length(sprout->derivation));
     }
     return is_any;

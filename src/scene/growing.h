@@ -8,7 +8,8 @@ typedef struct FrGrowing FrGrowing;
 
 /// True for what answers light: an L-system with open symbols in a scene that has a `<light>`.
 bool fr_growing_is_wanted(const FrScene *scene, const FrPlantDef *definition);
-FrGrowing *fr_growing_new(void);
+/// Plants that grow at most `steps` steps.
+FrGrowing *fr_growing_new(uint64_t steps);
 void fr_growing_free(FrGrowing *growing);
 /// A plant that begins where `stand` is; it becomes the last of the scene's plants, empty as yet.
 /// `seed` < 0: what its text says.

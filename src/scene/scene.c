@@ -283,6 +283,12 @@ static FrScene *new_scene(const FrDocument *document, int64_t seed) {
     return scene;
 }
 
+/// How far L-systems grow until a time: a step a frame.
+static uint64_t steps_at(const FrDocument *document, double time) {
+    double frame = fr_document_scene(document)->frame_time;
+    return isnan(time) ? UINT64_MAX : (uint64_t)fmin(round(time / frame), 1e18);
+}
+
 static void free_varied(void *varied) {
     fr_varied_free(varied);
 }
@@ -309,7 +315,7 @@ static FrStatus build_scene(const FrDocument *document, int64_t seed, double tim
                    .varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied),
                    .seed = seed,
                    .time = time,
-                   .growing = fr_growing_new(),
+                   .growing = fr_growing_new(steps_at(document, time)),
                    .parts = parts,
                    .sampled = fr_sampled_new()};
     const GPtrArray *plants = fr_document_plants(document);

@@ -143,6 +143,27 @@ static void test_threads(void) {
     }
 }
 
+/// A clock that shows so many frames has let plants grow so many steps.
+static void test_frames(void) {
+    const char *text = DOCUMENT(BENDING, "<light near='0.1'/>" LAMP "<place plant='p'/>");
+    FrContext context = fr_context_default();
+    FrDocument *document;
+    FrSource *source = fr_source_new("frames.frond", text, strlen(text));
+    g_assert_cmpint(fr_document_parse(source, NULL, &context, &document), ==, FR_OK);
+    double frame = fr_document_scene(document)->frame_time;
+    static const uint32_t frames[] = {0, 7, 30, 99}, nodes[] = {0, 7, 30, 30};
+    for (int i = 0; i < 4; i++) {
+        FrScene *scene;
+        g_assert_cmpint(fr_scene_build_at(document, -1, frame * frames[i], &context, &scene), ==,
+                        FR_OK);
+        const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, 0).plant;
+        g_assert_cmpuint(plant->nodes.count, ==, nodes[i]);
+        fr_scene_free(scene);
+    }
+    fr_document_free(document);
+    fr_source_unref(source);
+}
+
 /// Without a `<light>` the L-system's own environment answers, and equal plants are one.
 static void test_without_light(void) {
     Built built =
@@ -159,6 +180,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/scene/growing/shade makes long internodes and no flowers", test_shade);
     g_test_add_func("/scene/growing/plants shade each other", test_neighbours);
     g_test_add_func("/scene/growing/the bits are the same for any number of threads", test_threads);
+    g_test_add_func("/scene/growing/plants grow a step a frame", test_frames);
     g_test_add_func("/scene/growing/without a light everything is as before", test_without_light);
     return g_test_run();
 }
