@@ -21,7 +21,7 @@ static FrStatus find_reference(FrLight *light, const FrLightScene *scene,
         return status;
     }
     if (!(answer.intensity > 0.0f)) {
-        fr_diags_add(context->diags, FR_ERROR, "dark-reference", (FrSpan){0},
+        fr_diags_add(context->diags, FR_ERROR, "dark-reference", scene->span,
                      "no light reaches the reference at %g, %g, %g, so nothing can be told "
                      "relative to it",
                      (double)scene->reference.x, (double)scene->reference.y,

@@ -203,7 +203,8 @@ static FrStatus set_scene(FrLighting *lighting, const FrScene *scene, const GArr
                         .min = lighting->min,
                         .max = lighting->max,
                         .has_reference = lighting->params->relative,
-                        .reference = lighting->params->reference};
+                        .reference = lighting->params->reference,
+                        .span = lighting->params->span};
     for (guint i = 0; i < meshed->len; i++) {
         const Meshed *from = &g_array_index(meshed, Meshed, i);
         mesh_of[i] = from->mesh == NULL ? FR_NONE : lit.mesh_count;
