@@ -78,6 +78,9 @@ FR_API FrMaterial *fr_material_new(const char *name, const FrMaterialParams *par
 /// Where a document names the file of that map: what errors about the picture point at, instead of
 /// the material's span. Before the material is shared.
 FR_API void fr_material_set_place(FrMaterial *material, FrMap map, FrSpan place);
+/// The bytes of that map's file, a PNG or JPEG, instead of those on disk; takes a reference. Before
+/// the material is shared.
+FR_API void fr_material_set_file(FrMaterial *material, FrMap map, GBytes *bytes);
 FR_API FrMaterial *fr_material_ref(FrMaterial *material);
 FR_API void fr_material_unref(FrMaterial *material);
 FR_API const char *fr_material_name(const FrMaterial *material);

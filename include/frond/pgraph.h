@@ -99,6 +99,8 @@ FR_API uint32_t fr_pgraph_edit_count(const FrPgraph *graph);
 FR_API const FrEditParams *fr_pgraph_edit_at(const FrPgraph *graph, uint32_t edit);
 FR_API FrStatus fr_pgraph_link(FrPgraph *graph, uint32_t from, uint32_t to, FrLinkKind kind,
                                FrSpan span, FrDiags *diags);
+/// Where the files that components name are: their names are relative to it.
+FR_API void fr_pgraph_set_folder(FrPgraph *graph, const char *folder);
 /// The `material` parameters of components name these. Takes a reference.
 /// Links from a graft to what stands at each place of a symbol.
 FR_API FrStatus fr_pgraph_link_symbol(FrPgraph *graph, uint32_t from, uint32_t to, char symbol,

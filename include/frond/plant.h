@@ -26,6 +26,7 @@
 #include "frond/expr.h"
 #include "frond/lattice.h"
 #include "frond/material.h"
+#include "frond/mesh_file.h"
 #include "frond/random.h"
 #include "frond/vector.h"
 
@@ -144,6 +145,7 @@ typedef enum FrShapeKind {
     FR_SHAPE_TRIANGLE,
     FR_SHAPE_MESH,       ///< triangles of a profile, see FrShape.detail
     FR_SHAPE_REVOLUTION, ///< an outline turned about the z axis
+    FR_SHAPE_FILE,       ///< triangles of a part of a file
 } FrShapeKind;
 
 /// What organs are placements of. Equal parameters give the same shape.
@@ -152,10 +154,12 @@ typedef struct FrShape {
     vec3s size;      ///< primitives: extent along x, y, z; they stand on the origin, along z
     uint32_t detail; ///< primitives: segments around, ≥ 3. FR_SHAPE_MESH: the profile whose points
                      ///< come in pairs, (x, y) and (z, 0), a corner each, three a triangle; at
-                     ///< most 2600 triangles, scaled by `size`
-    uint32_t outline; ///< FR_SHAPE_REVOLUTION: profile whose points are (along 0–1, half width
-                      ///< 0–0.5) of `size`, in the order in which its outer side lies to the right
-                      ///< of one who goes up; open ends that are not on the axis stay open
+                     ///< most 2600 triangles, scaled by `size`. FR_SHAPE_FILE: index into files,
+                     ///< scaled by `size`
+    uint32_t
+        outline; ///< FR_SHAPE_FILE: the part. FR_SHAPE_REVOLUTION: profile whose points are (along
+                 ///< 0–1, half width 0–0.5) of `size`, in the order in which its outer side lies to
+                 ///< the right of one who goes up; open ends that are not on the axis stay open
     FrBlade blade; ///< for FR_SHAPE_BLADE
 } FrShape;
 
@@ -204,6 +208,7 @@ typedef struct FrPlant {
     GArray *shapes;            ///< FrShape
     GArray *profiles;          ///< FrProfile
     GPtrArray *materials;      ///< FrMaterial *, owned references
+    GPtrArray *files;          ///< FrMeshFile *, owned references
     GArray *deformers;         ///< FrDeformer
     GArray *deformations;      ///< FrDeformation
     GArray *components;        ///< FrComponent
@@ -240,6 +245,8 @@ FR_API uint32_t fr_plant_add_profile(FrPlant *plant, const double (*points)[2], 
                                      bool is_closed);
 /// Takes a reference; a material already there gives its index.
 FR_API uint32_t fr_plant_add_material(FrPlant *plant, FrMaterial *material);
+/// Takes a reference; a file already there gives its index.
+FR_API uint32_t fr_plant_add_file(FrPlant *plant, FrMeshFile *file);
 /// Appends a way of deforming; takes references to its expressions.
 FR_API uint32_t fr_plant_add_deformation(FrPlant *plant, const FrDeformation *deformation);
 /// Appends scopes without outer one, node, turn; scale and strength 1. Returns the first.

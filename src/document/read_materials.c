@@ -5,8 +5,8 @@ static const char *const map_attributes[FR_MAP_COUNT] = {[FR_MAP_COLOUR] = "pict
                                                          [FR_MAP_NORMAL] = "normal-map",
                                                          [FR_MAP_ROUGHNESS] = "roughness-map"};
 
-static void check_file(FrReader *reader, uint32_t node, const char *attribute, const char *file) {
-    if (file == NULL) {
+void fr_read_check_file(FrReader *reader, uint32_t node, const char *attribute, const char *file) {
+    if (file == NULL || *file == '\0') {
         return;
     }
     FrXmlRange place = fr_read_value_place(reader, node, attribute);
@@ -31,7 +31,7 @@ static void read_material(FrReader *reader, uint32_t node, const char *id) {
                                        [FR_MAP_NORMAL] = params.normal_map,
                                        [FR_MAP_ROUGHNESS] = params.roughness_map};
     for (int map = 0; map < FR_MAP_COUNT; map++) {
-        check_file(reader, node, map_attributes[map], files[map]);
+        fr_read_check_file(reader, node, map_attributes[map], files[map]);
     }
     FrSpan ramp = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "ramp"));
     if (!fr_material_check_ramp(params.ramp, ramp, reader->diags)) {

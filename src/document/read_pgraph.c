@@ -68,6 +68,25 @@ static void read_defines(GraphReader *graph, uint32_t node, uint32_t component) 
     }
 }
 
+static bool is_file(const FrParam *row) {
+    return row->kind == FR_PARAM_TEXT &&
+           (strcmp(row->name, "file") == 0 || g_str_has_suffix(row->name, "_file"));
+}
+
+/// The files that a component names must be there.
+static void check_files(FrReader *reader, uint32_t node, const FrParamTable *table,
+                        const void *params) {
+    for (size_t i = 0; i < table->count; i++) {
+        const FrParam *row = &table->rows[i];
+        if (is_file(row)) {
+            char *attribute = fr_param_attribute(row);
+            fr_read_check_file(reader, node, attribute,
+                               *(char *const *)(const void *)((const char *)params + row->offset));
+            g_free(attribute);
+        }
+    }
+}
+
 static void read_component(GraphReader *graph, uint32_t node, FrElementId element) {
     FrReader *reader = graph->reader;
     fr_read_check_children(reader, node, element);
@@ -90,6 +109,7 @@ static void read_component(GraphReader *graph, uint32_t node, FrElementId elemen
     if (element == FR_ELEMENT_COMPONENT + FR_COMPONENT_GRAFT) {
         read_defines(graph, node, component);
     }
+    check_files(reader, node, fr_element(element).table, params);
 }
 
 /// The component an attribute of a link names, FR_NONE with an error.
@@ -168,6 +188,7 @@ void fr_read_pgraph(FrReader *reader, uint32_t node, FrPgraph *definition) {
     };
     FrStatus before = reader->status;
     reader->status = FR_OK;
+    fr_pgraph_set_folder(definition, reader->document->folder);
     fr_read_check_children(reader, node, FR_ELEMENT_PGRAPH);
     read_parts(&graph, node);
     fr_read_edits(reader, reader->tree->nodes[node].parent, definition);

@@ -35,6 +35,8 @@ FR_MUST_USE FrStatus fr_document_read(FrDocument *document, const FrContext *con
 
 /// Each reads the children of `parent` that belong to its section.
 void fr_read_curves(FrReader *reader, uint32_t parent);
+/// The file an attribute names must be there, relative to the document.
+void fr_read_check_file(FrReader *reader, uint32_t node, const char *attribute, const char *file);
 void fr_read_materials(FrReader *reader, uint32_t parent);
 void fr_read_plants(FrReader *reader, uint32_t parent);
 /// Reads the `<slider>`s of a `<plant>`; each becomes a number of `scope`. Free with

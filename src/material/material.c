@@ -64,6 +64,12 @@ void fr_material_set_place(FrMaterial *material, FrMap map, FrSpan place) {
     material->places[map] = place;
 }
 
+void fr_material_set_file(FrMaterial *material, FrMap map, GBytes *bytes) {
+    g_bytes_ref(bytes);
+    g_clear_pointer(&material->slots[map].file, g_bytes_unref);
+    material->slots[map].file = bytes;
+}
+
 FrMaterial *fr_material_ref(FrMaterial *material) {
     g_atomic_ref_count_inc(&material->references);
     return material;

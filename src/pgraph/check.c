@@ -1,4 +1,5 @@
 // What can be wrong with a p-graph before anything is made of it.
+#include "material/mesh_file.h"
 #include "pgraph/choice.h"
 #include "pgraph/global.h"
 #include "pgraph/prepare.h"
@@ -55,6 +56,39 @@ static FrStatus check_recursions(const FrPgraph *graph, const FrRecursions *recu
     return FR_OK;
 }
 
+// What is read from a file must name one.
+static FrStatus check_file(const FrPrototype *prototype, FrDiags *diags) {
+    const FrStemParams *stem = prototype->params;
+    const FrSimpleParams *simple = prototype->params;
+    const FrForceParams *force = prototype->params;
+    const FrScatterParams *scatter = prototype->params;
+    const char *name = NULL;
+    bool is_wanted = false;
+    switch (prototype->kind) {
+    case FR_COMPONENT_HORN:
+    case FR_COMPONENT_TREE:
+        is_wanted = stem->primitive == FR_PRIMITIVE_MESH;
+        name = stem->file;
+        break;
+    case FR_COMPONENT_SIMPLE:
+        is_wanted = simple->primitive == FR_PRIMITIVE_MESH;
+        name = simple->file;
+        break;
+    case FR_COMPONENT_SCATTER:
+        is_wanted = scatter->surface == FR_SCATTER_MESH;
+        name = scatter->file;
+        break;
+    case FR_COMPONENT_FORCE:
+        is_wanted = force->kind == FR_FORCE_TO_MESH;
+        name = force->file;
+        break;
+    default:
+        break;
+    }
+    bool is_fine = !is_wanted || fr_mesh_name_check(name, prototype->span, diags);
+    return is_fine ? FR_OK : FR_ERR_DOCUMENT;
+}
+
 static FrStatus check_own(const FrPgraph *graph, uint32_t component, FrDiags *diags) {
     const FrPrototype *prototype = fr_pgraph_prototype(graph, component);
     if (prototype->kind == FR_COMPONENT_VARIATION) {
@@ -91,6 +125,7 @@ static FrStatus check_texts(const FrPgraph *graph, FrDiags *diags) {
         }
         fr_flags_clear(&flags);
         status = check_own(graph, c, diags) == FR_OK ? status : FR_ERR_DOCUMENT;
+        status = check_file(prototype, diags) == FR_OK ? status : FR_ERR_DOCUMENT;
         bool is_stem = prototype->kind == FR_COMPONENT_HORN || prototype->kind == FR_COMPONENT_TREE;
         const FrStemParams *stem = prototype->params;
         if (is_stem && stem->course == FR_COURSE_PATH) {

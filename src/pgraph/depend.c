@@ -3,6 +3,7 @@
 #include "pgraph/choice.h"
 #include "pgraph/edit.h"
 #include "pgraph/ramp.h"
+#include "pgraph/strewn.h"
 
 #include <string.h>
 
@@ -47,6 +48,14 @@ static FrDigest digest_component(const FrExpansion *expansion, uint32_t componen
         uint64_t link[] = {expansion->prepared[weight->to].key_word, weight->kind};
         digest = fr_digest(digest, link, sizeof link);
         digest = fr_digest(digest, &weight->weight, sizeof weight->weight);
+    }
+    if (prepared->file != NULL) {
+        digest = fr_digest(digest, &prepared->file->digest, sizeof prepared->file->digest);
+    }
+    if (prepared->strewn != NULL && prepared->strewn->map != NULL) {
+        const FrImage *map = prepared->strewn->map;
+        size_t size = (size_t)map->width * map->height * map->channels;
+        digest = fr_digest(digest, map->pixels, size);
     }
     return digest_parameters(digest, prepared, ON_GROWTH);
 }
@@ -98,6 +107,8 @@ FrDigest fr_depend_tables(const FrExpansion *expansion) {
         uint32_t head[] = {component,       prepared->material,     prepared->profile,
                            prepared->shape, prepared->shape_choice, prepared->deformation};
         digest = fr_digest(digest, head, sizeof head);
+        digest =
+            fr_digest(digest, prepared->pieces, prepared->piece_count * sizeof *prepared->pieces);
         if (prepared->shape_choice == FR_SHAPE_VARIANT) {
             digest = fr_digest(digest, prepared->variants,
                                prepared->variant_count * sizeof *prepared->variants);

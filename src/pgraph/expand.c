@@ -485,6 +485,19 @@ static void begin_counts(FrPgraphCounts *counts, uint32_t components) {
     }
 }
 
+// Takes away what stems would have gone on with behind what they ended at, and all it bears. False
+// if there is nothing to take away.
+static bool drop_ended(FrPlant *plant) {
+    uint16_t all = 0;
+    for (uint32_t node = 0; node < plant->nodes.count; node++) {
+        all = (uint16_t)(all | plant->nodes.flags[node]);
+    }
+    if ((all & FR_SHED) != 0) {
+        fr_plant_compact(plant);
+    }
+    return (all & FR_SHED) != 0;
+}
+
 // The plant of build->expansion is there afterwards if the graph was right, finished or not.
 static FrStatus run(FrBuild *build, FrUnrolled *unrolled) {
     const FrPgraph *graph = build->expansion.graph;
@@ -502,6 +515,11 @@ static FrStatus run(FrBuild *build, FrUnrolled *unrolled) {
         build->expansion.unrolled = unrolled;
         status = fr_unroll(unrolled, graph, &recursions, build->context);
         status = status == FR_OK ? prepare_and_expand(build, &recursions) : status;
+        bool has_fields = build->expansion.fields->len > 0;
+        bool is_cut = status == FR_OK && has_fields && drop_ended(build->expansion.plant);
+        if (build->made != NULL) {
+            build->made->is_cut = is_cut;
+        }
         g_array_unref(build->expansion.fields);
     }
     fr_recursions_clear(&recursions);
@@ -542,7 +560,7 @@ FrStatus fr_pgraph_rebuild(const FrPgraph *graph, const FrPgraphBuild *last,
     FrBuild build = {.context = context,
                      .counts = &kept->counts,
                      .made = kept,
-                     .last = last,
+                     .last = last != NULL && !last->is_cut ? last : NULL,
                      .expansion = {.graph = graph}};
     FrStatus status = run(&build, &kept->unrolled);
     *made = status == FR_OK ? kept : NULL;

@@ -145,7 +145,9 @@ static void draw_all(const FrFields *fields, const FrDraw *what, const double at
         const FrPrepared *prepared = &fields->prepared[force->component];
         if (prepared->kind == FR_COMPONENT_FORCE && force->strength != 0) {
             double weight = fr_force_at(force, prepared, at, way->heading, field);
-            double metres = part * what->length / force->scale;
+            double metres = part * what->length / force->scale * what->weight;
+            const FrForceParams *params = prepared->params;
+            metres *= params->order_factor != 1 ? pow(params->order_factor, what->order) : 1;
             draw(way, field, weight * force->strength * metres, false);
         }
     }
@@ -240,7 +242,7 @@ bool fr_field_deflect(const FrFields *fields, versors frame, vec3s from, double 
         const FrField *force = &fields->fields[f];
         const FrPrepared *prepared = &fields->prepared[force->component];
         const FrForceParams *params = prepared->params;
-        if (prepared->kind == FR_COMPONENT_FORCE && params->solid) {
+        if (prepared->kind == FR_COMPONENT_FORCE && params->solid == FR_SOLID_SLIDE) {
             is_turned |= lift(force, prepared, at, length, radius, heading);
         }
     }
@@ -249,4 +251,54 @@ bool fr_field_deflect(const FrFields *fields, versors frame, vec3s from, double 
         *turn = fr_rotation_between(before, after);
     }
     return is_turned;
+}
+
+// How far one may go from `from` until one meets a force: where its surface is at least so far
+// away, one may go as far (Hart. Sphere Tracing. The Visual Computer 12, 1996).
+static double free_of(const FrField *force, const FrPrepared *prepared, const double from[3],
+                      const double heading[3], double length, bool *may_come_out) {
+    enum { MOST_STEPS = 64 };
+    double gone = 0, nearest = 1e-4 * length;
+    for (int k = 0; k < MOST_STEPS; k++) {
+        double at[3], outward[3];
+        for (int r = 0; r < 3; r++) {
+            at[r] = from[r] + gone * heading[r];
+        }
+        double clear = fr_force_clearance(force, prepared, at, outward);
+        *may_come_out &= clear < nearest;
+        if (clear < nearest && !*may_come_out) {
+            return gone;
+        }
+        gone += fmax(fabs(clear), nearest);
+        if (gone >= length) {
+            break;
+        }
+    }
+    return length;
+}
+
+double fr_field_free(const FrFields *fields, versors frame, vec3s from, double length,
+                     uint64_t *out, bool *is_cut) {
+    vec3s before = fr_frame_heading(frame);
+    double at[3], heading[3], free = length;
+    for (int r = 0; r < 3; r++) {
+        at[r] = (double)from.raw[r];
+        heading[r] = (double)before.raw[r];
+    }
+    *is_cut = false;
+    uint64_t bit = 1;
+    for (uint32_t f = fields->innermost; f != FR_NONE && free > 0; f = fields->fields[f].outer) {
+        const FrField *force = &fields->fields[f];
+        const FrPrepared *prepared = &fields->prepared[force->component];
+        const FrForceParams *params = prepared->params;
+        if (prepared->kind == FR_COMPONENT_FORCE && params->solid >= FR_SOLID_STOP) {
+            bool may_come_out = (*out & bit) == 0;
+            double own = free_of(force, prepared, at, heading, free, &may_come_out);
+            *out |= may_come_out ? 0 : bit;
+            bit = bit << 1 | bit >> 63;
+            *is_cut = own < free ? params->solid == FR_SOLID_PRUNE : *is_cut;
+            free = own;
+        }
+    }
+    return free;
 }

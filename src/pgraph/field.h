@@ -30,6 +30,8 @@ typedef struct FrDraw {
     FrTropism tropism; ///< over the stem's length
     double length;     ///< m, of the stem
     double finest;     ///< m, > 0: the longest internode that its fields allow
+    double weight;     ///< factor of forces
+    uint32_t order;    ///< of the stem
 } FrDraw;
 
 /// Gravity, 1 where it is plain, at a point in the plant's coordinates.
@@ -40,6 +42,12 @@ void fr_field_light(const FrFields *fields, const double at[3], double light[3])
 /// a part `step` of its length. Independent of how a stem is cut into steps but for second order.
 versors fr_field_turn(const FrFields *fields, const FrDraw *draw, versors frame, vec3s from,
                       double step);
+/// How far an internode of `length` metres may go from `from` until it meets what stems end at or
+/// are cut off at; `length` if it meets nothing. What begins inside of a force has gone no way at
+/// all, but where its bit of *out is not set; that is set as soon as one is outside of it. *is_cut
+/// receives which of both.
+double fr_field_free(const FrFields *fields, versors frame, vec3s from, double length,
+                     uint64_t *out, bool *is_cut);
 /// The rotation that keeps an internode of `length` metres, `radius` thick, out of solid forces.
 /// False if it need not turn.
 bool fr_field_deflect(const FrFields *fields, versors frame, vec3s from, double length,

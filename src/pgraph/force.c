@@ -1,9 +1,11 @@
-// Points, lines, planes, vortices and curves that draw stems.
+// Points, lines, planes, vortices, curves and bodies that draw stems.
 //
 // A stem that follows a line is led as one steers along a road: in its direction while it is at
 // the right distance, and the more towards it the farther it is off (pure pursuit). So it comes to
 // the distance and stays there.
 #include "pgraph/force.h"
+
+#include "frond/distance.h"
 
 #include <math.h>
 
@@ -94,6 +96,44 @@ static void from_point(const double local[3], const double centre[3], double rad
     }
 }
 
+// A box, or the half of a disc of radius `half[0]` where `dimensions` is 2, that reaches from −half
+// to half. Distances from boxes after: Quilez, Distance functions. `way` receives the way out.
+static double from_corner(const double *at, const double *half, int dimensions, double *way) {
+    double outside = 0, deepest = -INFINITY;
+    int nearest = 0;
+    for (int k = 0; k < dimensions; k++) {
+        double over = fabs(at[k]) - half[k];
+        outside += over > 0 ? over * over : 0;
+        nearest = over > deepest ? k : nearest;
+        deepest = fmax(over, deepest);
+    }
+    for (int k = 0; k < dimensions; k++) {
+        double over = fabs(at[k]) - half[k];
+        double part = deepest > 0 ? fmax(over, 0) : k == nearest;
+        way[k] = at[k] < 0 ? -part : part;
+    }
+    return deepest > 0 ? sqrt(outside) : deepest;
+}
+
+static void from_box(const double local[3], vec3s size, Source *source) {
+    double half[3], at[3];
+    for (int r = 0; r < 3; r++) {
+        half[r] = 0.5 * (double)size.raw[r];
+        at[r] = local[r] - (r == 2 ? half[2] : 0);
+    }
+    source->distance = from_corner(at, half, 3, source->outward);
+}
+
+static void from_cylinder(const double local[3], vec3s size, Source *source) {
+    double off = sqrt(local[0] * local[0] + local[1] * local[1]), way[2];
+    double half[2] = {0.5 * (double)size.x, 0.5 * (double)size.z};
+    double at[2] = {off, local[2] - half[1]};
+    source->distance = from_corner(at, half, 2, way);
+    source->outward[0] = way[0] * (off > 0 ? local[0] / off : 1);
+    source->outward[1] = off > 0 ? way[0] * local[1] / off : 0;
+    source->outward[2] = way[1];
+}
+
 // What of the heading goes along the surface.
 static void project(const double heading[3], Source *source) {
     double rise = dot(heading, source->outward);
@@ -101,6 +141,18 @@ static void project(const double heading[3], Source *source) {
         source->along[r] = heading[r] - rise * source->outward[r];
     }
     normalize(source->along);
+}
+
+// Bodies keep stems `radius` away; what is inverted is seen from within.
+static void settle(const FrForceParams *params, double radius, Source *source) {
+    normalize(source->outward);
+    if (params->inverted) {
+        source->distance = -source->distance;
+        for (int r = 0; r < 3; r++) {
+            source->outward[r] = -source->outward[r];
+        }
+    }
+    source->distance -= params->kind >= FR_FORCE_TO_BOX ? radius : 0;
 }
 
 // The source at a point, all in its own coordinates. `heading` may be NULL.
@@ -136,6 +188,15 @@ static Source source_at(const FrField *force, const FrPrepared *prepared, const 
         source.along[2] = sin(force->pitch);
         source.keeps_distance = force->radius > 0;
         break;
+    case FR_FORCE_TO_BOX:
+        from_box(local, params->size, &source);
+        break;
+    case FR_FORCE_TO_CYLINDER:
+        from_cylinder(local, params->size, &source);
+        break;
+    case FR_FORCE_TO_MESH:
+        source.distance = fr_distance_at(prepared->distance, local, source.outward);
+        break;
     default: {
         double point[3] = {0, 0, 0};
         nearest_on(prepared->path, local, point, source.along);
@@ -144,7 +205,9 @@ static Source source_at(const FrField *force, const FrPrepared *prepared, const 
         break;
     }
     }
-    bool has_own = params->kind != FR_FORCE_TO_POINT && params->kind != FR_FORCE_TO_PLANE;
+    settle(params, force->radius, &source);
+    bool has_own = params->kind == FR_FORCE_ALONG_DIRECTION || params->kind == FR_FORCE_TO_LINE ||
+                   params->kind == FR_FORCE_IN_VORTEX || params->kind == FR_FORCE_TO_CURVE;
     if (!has_own && heading != NULL) {
         project(heading, &source);
     }
@@ -184,7 +247,12 @@ double fr_force_at(const FrField *force, const FrPrepared *prepared, const doubl
         towards = fmax(-1, fmin(source.distance / params->reach, 1));
     }
     double onward = sqrt(1 - towards * towards);
-    if (params->action == FR_ACTION_PULL && source.keeps_distance) {
+    if (params->action == FR_ACTION_AVOID && source.has_distance) {
+        double near = fmax(0, fmin(1 - source.distance / params->reach, 1));
+        weight *= near * near;
+        towards = -1;
+        onward = 0;
+    } else if (params->action == FR_ACTION_PULL && source.keeps_distance) {
         weight *= fabs(towards);
         onward = 0;
     }

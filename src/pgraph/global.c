@@ -243,6 +243,11 @@ static void make_field(const FrExpansion *expansion, uint32_t row, FrPose pose,
     }
     if (prepared->kind == FR_COMPONENT_FORCE) {
         const FrForceParams *force = prepared->params;
+        for (int r = 0; r < 3; r++) {
+            for (int c = 0; c < 3; c++) {
+                field.at[r] += field.axes[r][c] * (double)force->place.raw[c] * pose.scale;
+            }
+        }
         field.strength = fr_value(evaluator, &force->strength, FR_FORCE_strength);
         field.radius = fr_value(evaluator, &force->radius, FR_FORCE_radius);
         field.pitch = fr_value(evaluator, &force->pitch, FR_FORCE_pitch);

@@ -59,6 +59,11 @@ void fr_pgraph_set_state(FrPgraph *graph, const FrPgraphState *state) {
     graph->state = *state;
 }
 
+void fr_pgraph_set_folder(FrPgraph *graph, const char *folder) {
+    g_free(graph->folder);
+    graph->folder = g_strdup(folder);
+}
+
 void fr_pgraph_free(FrPgraph *graph) {
     if (graph == NULL) {
         return;
@@ -70,6 +75,7 @@ void fr_pgraph_free(FrPgraph *graph) {
     g_array_unref(graph->links);
     g_array_unref(graph->edits);
     g_array_unref(graph->prototypes);
+    g_free(graph->folder);
     g_free(graph->name);
     g_free(graph);
 }

@@ -32,6 +32,7 @@ struct FrPgraph {
     char *name;
     uint64_t seed;
     FrPgraphState state;
+    char *folder;               ///< that files are relative to; owned; NULL: the working folder
     GArray *prototypes;         ///< FrPrototype
     GArray *links;              ///< FrPgraphLink, as they were added
     GPtrArray *materials;       ///< FrMaterial *, owned references

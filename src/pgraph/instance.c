@@ -197,6 +197,8 @@ FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, dou
         .has_parent = level->parent_length[row] >= 0,
         .step = (double)level->step[row],
         .is_in_field = level->field[row] != FR_NONE,
+        .order = level->order[row],
+        .is_on_ground = level->bearer[row] == FR_NONE,
     };
 }
 

@@ -110,6 +110,11 @@ uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t org
 /// the instance must be set if its shape is evaluated; they are changed.
 uint32_t fr_instance_leaf_shape(const FrExpansion *expansion, uint32_t row, uint32_t organ,
                                 FrEvaluator *evaluator);
+/// Gives an organ of the instance in `row` the shape and the material of a piece.
+void fr_piece_write(const FrExpansion *expansion, uint32_t row, uint32_t organ,
+                    const FrPiece *piece);
+/// Writes the pieces of its primitive from row `organ` on; returns the row after.
+uint32_t fr_write_pieces(const FrExpansion *expansion, uint32_t row, uint32_t organ, FrPose pose);
 
 /// The kinds, each from the file of its name.
 void fr_make_graft(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
@@ -122,7 +127,7 @@ void fr_make_star(const FrExpansion *expansion, uint32_t row, FrEvaluator *evalu
 void fr_make_scatter(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
                      FrEvaluator *place);
 /// How many children a scatter strews, as yet not whole.
-double fr_scatter_count(const FrScatterParams *params, FrEvaluator *evaluator);
+double fr_scatter_count(const FrPrepared *prepared, FrEvaluator *evaluator);
 void fr_make_revo(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// Writes the branches of a Tree's stem into the next level from `at` on; returns the row after.
 uint32_t fr_make_branches(const FrExpansion *expansion, uint32_t row, const FrStem *stem,

@@ -95,6 +95,23 @@ uint32_t fr_write_organ(const FrExpansion *expansion, uint32_t row, uint32_t org
     return organ;
 }
 
+void fr_piece_write(const FrExpansion *expansion, uint32_t row, uint32_t organ,
+                    const FrPiece *piece) {
+    FrOrgans *organs = &expansion->plant->organs;
+    bool has_own = piece->material != FR_NONE;
+    organs->shape[organ] = piece->shape;
+    organs->material[organ] = has_own ? piece->material : fr_instance_material(expansion, row);
+}
+
+uint32_t fr_write_pieces(const FrExpansion *expansion, uint32_t row, uint32_t organ, FrPose pose) {
+    const FrPrepared *prepared = prepared_of(expansion, row);
+    for (uint32_t k = 0; k < prepared->piece_count; k++, organ++) {
+        fr_write_organ(expansion, row, organ, pose, FR_NONE);
+        fr_piece_write(expansion, row, organ, &prepared->pieces[k]);
+    }
+    return organ;
+}
+
 static void write_axis(const FrExpansion *expansion, uint32_t row, uint32_t axis, FrPose pose,
                        double radius, uint16_t flags) {
     FrAxes *axes = &expansion->plant->axes;
@@ -271,9 +288,9 @@ static void make_simple(const FrExpansion *expansion, uint32_t row, FrEvaluator 
         axis = level->axis_count[row];
         write_axis(expansion, row, axis, pose, 0.5 * (double)simple->size.x * pose.scale,
                    FR_POINT_SETS | FR_CUT);
-    } else if (prepared->shape != FR_NONE) {
-        fr_write_organ(expansion, row, level->organ_count[row], pose, prepared->shape);
-        vec3s top = {{0, 0, (float)((double)simple->size.z * pose.scale)}};
+    } else if (prepared->piece_count > 0) {
+        fr_write_pieces(expansion, row, level->organ_count[row], pose);
+        vec3s top = {{0, 0, (float)(prepared->top * pose.scale)}};
         pose = fr_pose_moved(pose, top, identity);
     }
     FrChild child = fr_single_child(expansion, row, pose);
@@ -290,7 +307,7 @@ static void make_string(const FrExpansion *expansion, uint32_t row, const FrStem
     bool is_stepped = stem->course == FR_COURSE_STEPS;
     if (is_stepped) {
         base.scale = fr_stem_radius(stem, 0);
-        fr_write_organ(expansion, row, organ++, base, stem->prepared->shape);
+        organ = fr_write_pieces(expansion, row, organ, base);
     }
     FrLimb whole = fr_stem_whole(stem);
     for (uint32_t l = 0; l < stem->limb_count; l++) {
@@ -306,7 +323,7 @@ static void make_string(const FrExpansion *expansion, uint32_t row, const FrStem
                 .rotation = is_stepped ? tip : identity,
                 .scale = fr_limb_radius(stem, limb, at),
             };
-            fr_write_organ(expansion, row, organ++, bead, stem->prepared->shape);
+            organ = fr_write_pieces(expansion, row, organ, bead);
         }
     }
 }
@@ -343,7 +360,13 @@ static void grow_stem(const FrExpansion *expansion, uint32_t row, const FrStem *
     for (uint32_t l = 0; l < stem->limb_count; l++) {
         const FrLimb *limb = fr_stem_limb(stem, &whole, l);
         uint32_t first = level->node_count[row] + limb->first;
-        FrPose base = limb->before != FR_NONE ? tips[limb->before] : pose;
+        FrPose base = pose;
+        if (limb->before != FR_NONE) {
+            // What has ended before its fork takes the arms with it.
+            const FrLimb *before = &stem->limbs[limb->before];
+            base = tips[limb->before];
+            base.bearer = level->node_count[row] + before->first + before->internodes - 1;
+        }
         if (limb->internodes == 0) {
             tips[l] = base;
             continue;
@@ -354,8 +377,7 @@ static void grow_stem(const FrExpansion *expansion, uint32_t row, const FrStem *
         tips[l] = base;
         tips[l].rotation =
             fr_limb_grow(stem, limb, expansion->plant, level->axis_count[row] + limb->axis, first,
-                         base.rotation, &fields);
-        tips[l].bearer = first + limb->internodes - 1;
+                         base.rotation, &fields, &tips[l].bearer);
         tips[l].offset = nowhere;
     }
     if (stem->prepared->is_string) {

@@ -14,7 +14,7 @@
 
 static uint32_t count_children(const FrPrepared *prepared, FrEvaluator *evaluator) {
     double count = prepared->kind == FR_COMPONENT_SCATTER
-                       ? fr_scatter_count(prepared->params, evaluator)
+                       ? fr_scatter_count(prepared, evaluator)
                        : fr_value(evaluator, prepared->number, prepared->number_parameter);
     count = floor(count + 0.5) * prepared->number_times;
     return (double)count < MOST_CHILDREN ? (uint32_t)count : (uint32_t)MOST_CHILDREN;
@@ -45,7 +45,8 @@ static void measure_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator
     if (prepared->is_string) {
         // Step by step, an object stands at either end of every step.
         bool has_both_ends = stem.course == FR_COURSE_STEPS;
-        level->organ_count[row] = stem.internodes + has_both_ends;
+        uint64_t organs = ((uint64_t)stem.internodes + has_both_ends) * prepared->piece_count;
+        level->organ_count[row] = (uint32_t)MIN(organs, UINT32_MAX - 1);
     }
     if (prepared->bears) {
         level->places[row] = stem.limbs != NULL ? count_branches(&stem) : stem.places.branches;
@@ -103,7 +104,7 @@ void fr_instance_measure(const FrExpansion *expansion, uint32_t row, FrEvaluator
             level->axis_count[row] = !goes_on;
             level->node_count[row] = goes_on;
         } else {
-            level->organ_count[row] = prepared->shape != FR_NONE;
+            level->organ_count[row] = prepared->piece_count;
         }
         break;
     case FR_COMPONENT_PHIBALL:

@@ -65,9 +65,10 @@
     X(INTEGER, lobes, "0", 0, 32, "", "", "ribs of the cross-section, if section is empty")        \
     X(REAL, lobe_depth, "0.15", 0, 0.9, "", "", "depth of the grooves between them, in radii")     \
     X(CHOICE, primitive, "tube", 0, 0, "",                                                         \
-      "tube area box sphere cone cylinder torus square circle triangle none",                      \
+      "tube area box sphere cone cylinder torus square circle triangle none mesh",                 \
       "a closed tube, an open area, or a string of objects")                                       \
     X(INTEGER, detail, "12", 3, 128, "", "", "segments around an object of a string")              \
+    X(TEXT, file, "", 0, 0, "", "", "file of triangles for primitive=mesh, as wide as the stem")   \
     X(CHOICE, tip, "pointed", 0, 0, "", "pointed flat", "end of the stem")                         \
     X(NUMBER, break_chance, "0", 0, 1, "", "", "probability that it is broken off, flat")          \
     X(NUMBER, break_at, "0.6", 0.01, 1, "", "", "where along the stem it then ends")               \
@@ -93,6 +94,7 @@
     X(NUMBER, gravitropism, "0", -20, 20, "", "self", "turns down; weeping; negative: away")       \
     X(NUMBER, phototropism, "0", -20, 20, "", "self", "turns up to the light; negative: away")     \
     X(NUMBER, plagiotropism, "0", -20, 20, "", "self", "turns to the horizontal; negative: away")  \
+    X(NUMBER, force_weight, "1", 0, 1000, "", "", "how strongly Forces turn it; 0 not at all")     \
     X(TEXT, path, "", 0, 0, "", "", "points x,y,z x,y,z of the curve for course=path, in m")       \
     X(INTEGER, steps, "4", 1, 100000, "", "", "cross-sections or objects for course=steps")        \
     X(VECTOR, step_translate, "0, 0, 0.1", -1000, 1000, "m", "", "moved by in each step")          \
@@ -140,7 +142,7 @@
     X(NUMBER, petiole_bend, "0", -360, 360, "deg", "", "turn of the petiole, upwards")             \
     X(CHOICE, outline, "elliptic", 0, 0, "",                                                       \
       "elliptic ovate obovate lanceolate oblanceolate linear cordate orbicular rhombic "           \
-      "spatulate deltoid petal",                                                                   \
+      "spatulate deltoid petal superformula",                                                      \
       "form of the blade")                                                                         \
     X(POINTS, outline_points, "", 0, 0, "", "",                                                    \
       "own form: along 0-1, half width 0-0.5, base to tip; instead of outline")                    \
@@ -155,16 +157,25 @@
     X(NUMBER, waves, "3", 0, 100, "", "", "waves along the margin")                                \
     X(INTEGER, segments_along, "6", 1, 64, "", "", "segments from base to tip")                    \
     X(INTEGER, segments_across, "2", 1, 32, "", "", "segments of each half")                       \
+    X(POINTS, left_points, "", 0, 0, "", "",                                                       \
+      "left half of outline-points, where the halves differ")                                      \
+    X(REAL, super_m, "4", 0, 20, "", "", "superformula: how many lobes a turn has")                \
+    X(REAL, super_a, "1", 0.01, 5, "", "", "superformula: a, length of every other lobe")          \
+    X(REAL, super_b, "1", 0.01, 5, "", "", "superformula: b, length of those between")             \
+    X(REAL, super_n1, "2", 0.1, 50, "", "", "superformula: n1, small is slender")                  \
+    X(REAL, super_n2, "2", 0.1, 50, "", "", "superformula: n2, form of the lobes")                 \
+    X(REAL, super_n3, "2", 0.1, 50, "", "", "superformula: n3, form of the gaps")                  \
     X(INTEGER, variants, "8", 1, 256, "", "", "shapes its random numbers choose from")             \
     X(NUMBER, phototropism, "0", 0, 1, "", "", "turns its upper face to the light: 1 fully")       \
     X(NUMBER, gravitropism, "0", -1, 1, "", "", "hangs down: 1 fully; negative: stands up")
 
 #define FR_SIMPLE_PARAMS(X)                                                                        \
     X(CHOICE, primitive, "box", 0, 0, "",                                                          \
-      "tube area box sphere cone cylinder torus square circle triangle none",                      \
+      "tube area box sphere cone cylinder torus square circle triangle none mesh",                 \
       "a solid, or one cross-section of a tube or area joined with the next")                      \
     X(VECTOR, size, "0.1, 0.1, 0.1", 0, 10000, "m", "", "extent along x, y, z")                    \
     X(INTEGER, detail, "12", 3, 128, "", "", "segments around")                                    \
+    X(TEXT, file, "", 0, 0, "", "", "file of triangles for primitive=mesh, in its own size")       \
     X(POINTS, section, "", 0, 0, "", "", "cross-section of radius 1; empty: a circle")
 
 typedef struct FrBasicParams {
@@ -225,6 +236,7 @@ enum {
     FR_PRIMITIVE_AREA,
     FR_PRIMITIVE_FIRST_SHAPE, ///< box; from here on in the order of FrShapeKind
     FR_PRIMITIVE_NONE = 10,
+    FR_PRIMITIVE_MESH,
 };
 enum { FR_TIP_POINTED, FR_TIP_FLAT };
 enum { FR_CROWN_NONE };

@@ -44,19 +44,27 @@
     X(REAL, step, "0.1", 0.0001, 1000, "m", "", "stems get an internode at least every so far")
 
 #define FR_FORCE_PARAMS(X)                                                                         \
-    X(CHOICE, kind, "line", 0, 0, "", "direction point line plane vortex curve",                   \
+    X(CHOICE, kind, "line", 0, 0, "", "direction point line plane vortex curve box cylinder mesh", \
       "what stems are drawn by; line and vortex along its z axis, a plane across it")              \
-    X(CHOICE, action, "follow", 0, 0, "", "follow pull align",                                     \
-      "grow along it at its radius, only to its radius, or only in its direction")                 \
+    X(CHOICE, action, "follow", 0, 0, "", "follow pull align avoid",                               \
+      "grow along it at its radius, only to its radius, only in its direction, or away from it")   \
     X(NUMBER, strength, "10", -10000, 10000, "1/m", "", "how fast stems turn; negative: away")     \
     X(VECTOR, direction, "0, 0, 1", -1000, 1000, "", "", "for kind=direction")                     \
     X(TEXT, path, "", 0, 0, "", "", "points x,y,z x,y,z for kind=curve, in m")                     \
+    X(VECTOR, place, "0, 0, 0", -10000, 10000, "m", "", "where it is, seen from where it stands")  \
+    X(VECTOR, size, "1, 1, 1", 0, 10000, "m", "",                                                  \
+      "extent of a box or cylinder, which stands on its place along its z axis")                   \
+    X(TEXT, file, "", 0, 0, "", "", "file of triangles for kind=mesh")                             \
+    X(SWITCH, inverted, "no", 0, 1, "", "", "its inside is free, all else is what it is")          \
     X(NUMBER, radius, "0", 0, 10000, "m", "", "distance that stems come to and keep")              \
     X(REAL, reach, "0.2", 0.00001, 10000, "m", "", "over what distance they come to it")           \
     X(NUMBER, pitch, "0", -90, 90, "deg", "", "climb of a vortex")                                 \
     X(CHOICE, falloff, "none", 0, 0, "", "none linear inverse gauss", "weaker with distance")      \
     X(REAL, range, "1", 0.00001, 10000, "m", "", "distance of the falloff")                        \
-    X(SWITCH, solid, "no", 0, 1, "", "", "stems slide along its surface, never within radius")     \
+    X(REAL, order_factor, "1", 0, 100, "", "",                                                     \
+      "how much stronger it draws branches of each further order")                                 \
+    X(CHOICE, solid, "no", 0, 0, "", "no yes stop prune",                                          \
+      "stems pass, slide along its surface, end at it, or are cut off there")                      \
     X(REAL, step, "0.05", 0.0001, 1000, "m", "", "stems get an internode at least every so far")
 
 typedef struct FrScopeParams {
@@ -108,6 +116,10 @@ enum {
     FR_FORCE_TO_PLANE,
     FR_FORCE_IN_VORTEX,
     FR_FORCE_TO_CURVE,
+    FR_FORCE_TO_BOX,
+    FR_FORCE_TO_CYLINDER,
+    FR_FORCE_TO_MESH,
 };
-enum { FR_ACTION_FOLLOW, FR_ACTION_PULL, FR_ACTION_ALIGN };
+enum { FR_ACTION_FOLLOW, FR_ACTION_PULL, FR_ACTION_ALIGN, FR_ACTION_AVOID };
+enum { FR_SOLID_NOT, FR_SOLID_SLIDE, FR_SOLID_STOP, FR_SOLID_PRUNE };
 enum { FR_FALLOFF_NONE, FR_FALLOFF_LINEAR, FR_FALLOFF_INVERSE, FR_FALLOFF_GAUSS };

@@ -66,7 +66,13 @@
 
 /// From child_scale on, evaluated for each child.
 #define FR_SCATTER_PARAMS(X)                                                                       \
-    X(CHOICE, surface, "disc", 0, 0, "", "disc square ring", "what is strewn with children")       \
+    X(CHOICE, surface, "disc", 0, 0, "", "disc square ring mesh", "what is strewn with children")  \
+    X(TEXT, file, "", 0, 0, "", "", "file of triangles for surface=mesh")                          \
+    X(TEXT, density_file, "", 0, 0, "", "", "picture on them; many children where it is light")    \
+    X(REAL, slope_from, "0", 0, 180, "deg", "", "triangles less steep than this bear none")        \
+    X(REAL, slope_to, "180", 0, 180, "deg", "", "triangles steeper than this bear none")           \
+    X(REAL, height_from, "-10000", -10000, 10000, "m", "", "no children lower on the mesh")        \
+    X(REAL, height_to, "10000", -10000, 10000, "m", "", "no children higher on the mesh")          \
     X(CHOICE, mode, "number", 0, 0, "", "number density", "what counts the children")              \
     X(NUMBER, number, "30", 0, 1000000, "", "", "children")                                        \
     X(NUMBER, density, "10", 0, 1000000, "1/m2", "", "children on a square metre")                 \
@@ -150,6 +156,6 @@ enum { FR_HAND_LEFT, FR_HAND_RIGHT };
 enum { FR_PLACEMENT_MIDPOINT, FR_PLACEMENT_END };
 enum { FR_ANCHOR_CENTRE, FR_ANCHOR_POLE };
 enum { FR_FORM_SPHERE, FR_FORM_CONE, FR_FORM_CYLINDER, FR_FORM_DISC };
-enum { FR_SCATTER_DISC, FR_SCATTER_SQUARE, FR_SCATTER_RING };
+enum { FR_SCATTER_DISC, FR_SCATTER_SQUARE, FR_SCATTER_RING, FR_SCATTER_MESH };
 enum { FR_SCATTER_BY_NUMBER, FR_SCATTER_BY_DENSITY };
 enum { FR_CHOOSE_AT_RANDOM, FR_CHOOSE_IN_TURN, FR_CHOOSE_BY_NUMBER };

@@ -1,5 +1,6 @@
 #include "pgraph/prepare.h"
 
+#include "frond/distance.h"
 #include "pgraph/along.h"
 #include "pgraph/choice.h"
 #include "pgraph/edit.h"
@@ -7,6 +8,7 @@
 #include "pgraph/life.h"
 #include "pgraph/ramp.h"
 #include "pgraph/revolved.h"
+#include "pgraph/strewn.h"
 
 #include <math.h>
 #include <string.h>
@@ -102,18 +104,6 @@ static uint32_t add_section(FrPlant *plant, const FrPoints *section, bool is_clo
                                     (uint32_t)section->count, is_closed);
     }
     return is_closed ? FR_NONE : fr_plant_add_profile(plant, flat, 2, false);
-}
-
-static uint32_t add_primitive(FrPlant *plant, int primitive, vec3s size, int64_t detail) {
-    if (primitive < FR_PRIMITIVE_FIRST_SHAPE || primitive >= FR_PRIMITIVE_NONE) {
-        return FR_NONE;
-    }
-    FrShape shape = {
-        .kind = (FrShapeKind)(primitive - FR_PRIMITIVE_FIRST_SHAPE + FR_SHAPE_BOX),
-        .size = size,
-        .detail = (uint32_t)detail,
-    };
-    return fr_plant_add_shape(plant, &shape);
 }
 
 static uint32_t add_curve(FrPlant *plant, const FrCurve *curve) {
@@ -243,11 +233,19 @@ static uint32_t add_lobes(FrPlant *plant, int64_t lobes, double depth) {
     return fr_plant_add_profile(plant, (const double(*)[2])points, count, true);
 }
 
-static void prepare_stem(FrPrepared *made, const FrPrototype *prototype, FrPlant *plant) {
+// The size that makes a file as wide as radius 1, whatever its own.
+static vec3s bead_size(const FrMeshFile *file) {
+    float width = fmaxf(file->max.x - file->min.x, file->max.y - file->min.y);
+    float factor = width > 1e-6f ? 2 / width : 1;
+    return (vec3s){{factor, factor, factor}};
+}
+
+static FrStatus prepare_stem(FrPrepared *made, const FrPgraph *graph, const FrPrototype *prototype,
+                             FrPlant *plant, const FrContext *context) {
     const FrStemParams *stem = prototype->params;
     made->is_stem = true;
     made->is_string =
-        stem->primitive >= FR_PRIMITIVE_FIRST_SHAPE && stem->primitive < FR_PRIMITIVE_NONE;
+        stem->primitive >= FR_PRIMITIVE_FIRST_SHAPE && stem->primitive != FR_PRIMITIVE_NONE;
     made->profile = stem->primitive <= FR_PRIMITIVE_AREA
                         ? add_section(plant, &stem->section, stem->primitive == FR_PRIMITIVE_TUBE)
                         : FR_NONE;
@@ -255,7 +253,15 @@ static void prepare_stem(FrPrepared *made, const FrPrototype *prototype, FrPlant
         made->profile = add_lobes(plant, stem->lobes, stem->lobe_depth);
     }
     // Objects of radius 1, placed with the stem's radius as their scale.
-    made->shape = add_primitive(plant, stem->primitive, (vec3s){{2, 2, 2}}, stem->detail);
+    vec3s size = {{2, 2, 2}};
+    if (stem->primitive == FR_PRIMITIVE_MESH) {
+        FrStatus status = fr_prepare_file(made, graph, prototype, stem->file, context);
+        if (status != FR_OK) {
+            return status;
+        }
+        size = bead_size(made->file);
+    }
+    fr_prepare_pieces(made, stem->primitive, size, stem->detail, plant);
     made->along = fr_along_find(stem);
     made->bend_factor = total_bend(stem->curvature_curve);
     if (stem->course == FR_COURSE_PATH) {
@@ -266,6 +272,30 @@ static void prepare_stem(FrPrepared *made, const FrPrototype *prototype, FrPlant
         made->density = cumulate_density(tree->density_curve);
         made->crown = crown_curve(tree->crown);
     }
+    return FR_OK;
+}
+
+static FrStatus prepare_simple(FrPrepared *made, const FrPgraph *graph,
+                               const FrPrototype *prototype, FrPlant *plant,
+                               const FrContext *context) {
+    const FrSimpleParams *simple = prototype->params;
+    vec3s size = simple->size;
+    made->is_point_set = simple->primitive <= FR_PRIMITIVE_AREA;
+    if (simple->primitive == FR_PRIMITIVE_MESH) {
+        FrStatus status = fr_prepare_file(made, graph, prototype, simple->file, context);
+        if (status != FR_OK) {
+            return status;
+        }
+        size = (vec3s){{1, 1, 1}};
+    }
+    fr_prepare_pieces(made, simple->primitive, size, simple->detail, plant);
+    made->top =
+        simple->primitive == FR_PRIMITIVE_MESH ? (double)made->file->max.z : (double)simple->size.z;
+    if (made->is_point_set) {
+        made->profile =
+            add_section(plant, &simple->section, simple->primitive == FR_PRIMITIVE_TUBE);
+    }
+    return FR_OK;
 }
 
 static void prepare_leaf(FrPrepared *made, const FrPgraph *graph, const FrPrototype *prototype,
@@ -273,10 +303,7 @@ static void prepare_leaf(FrPrepared *made, const FrPgraph *graph, const FrProtot
     const FrLeafParams *leaf = prototype->params;
     made->blade = (FrShape){.kind = FR_SHAPE_BLADE};
     FrBlade *blade = &made->blade.blade;
-    blade->outline = leaf->outline_points.count >= 2
-                         ? fr_plant_add_profile(plant, (const double(*)[2])leaf->outline_points.at,
-                                                (uint32_t)leaf->outline_points.count, false)
-                         : fr_leaf_outline(plant, leaf->outline);
+    blade->outline = fr_leaf_outline(plant, leaf);
     blade->along_curve = add_curve(plant, leaf->along_curve);
     blade->across_curve = add_curve(plant, leaf->across_curve);
     blade->segments_along = (uint16_t)leaf->segments_along;
@@ -360,8 +387,8 @@ static void prepare_graft(FrPrepared *made, const FrPgraph *graph, uint32_t comp
     made->symbols = g_string_free(symbols, symbols->len == 0);
 }
 
-static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t component, FrPlant *plant,
-                        GHashTable *faults) {
+static FrStatus prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t component,
+                            FrPlant *plant, GHashTable *faults, const FrContext *context) {
     const FrPrototype *prototype = fr_pgraph_prototype(graph, component);
     const FrBasicParams *basic = prototype->params;
     *made = (FrPrepared){
@@ -383,20 +410,11 @@ static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t compon
     note_number(made);
     fr_prepare_life(made);
     switch (prototype->kind) {
-    case FR_COMPONENT_SIMPLE: {
-        const FrSimpleParams *simple = prototype->params;
-        made->is_point_set = simple->primitive <= FR_PRIMITIVE_AREA;
-        made->shape = add_primitive(plant, simple->primitive, simple->size, simple->detail);
-        if (made->is_point_set) {
-            made->profile =
-                add_section(plant, &simple->section, simple->primitive == FR_PRIMITIVE_TUBE);
-        }
-        break;
-    }
+    case FR_COMPONENT_SIMPLE:
+        return prepare_simple(made, graph, prototype, plant, context);
     case FR_COMPONENT_HORN:
     case FR_COMPONENT_TREE:
-        prepare_stem(made, prototype, plant);
-        break;
+        return prepare_stem(made, graph, prototype, plant, context);
     case FR_COMPONENT_PHYLLOTAXIS:
         made->revolved = fr_revolved_new(prototype->params);
         break;
@@ -413,10 +431,16 @@ static void prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t compon
     case FR_COMPONENT_LEAF:
         prepare_leaf(made, graph, prototype, plant, faults);
         break;
+    case FR_COMPONENT_SCATTER:
+        return fr_prepare_scatter(made, graph, prototype, context);
+    case FR_COMPONENT_FORCE:
+        fr_prepare_global(made, prototype, component, plant, faults);
+        return fr_prepare_body(made, graph, prototype, context);
     default:
         fr_prepare_global(made, prototype, component, plant, faults);
         break;
     }
+    return FR_OK;
 }
 
 // What only passes on what follows stands where a stem does if a stem follows.
@@ -446,9 +470,12 @@ FrStatus fr_prepare(FrPrepared **prepared_out, const FrPgraph *graph,
         if (!recursions->is_reached[c]) {
             continue;
         }
-        prepare_one(&prepared[c], graph, c, plant, faults);
-        FrStatus status = fr_limit_check(plant->shapes->len, context->limits.shapes, "shapes",
-                                         prototype->id, prototype->span, context->diags);
+        FrStatus status = prepare_one(&prepared[c], graph, c, plant, faults, context);
+        if (status != FR_OK) {
+            return status;
+        }
+        status = fr_limit_check(plant->shapes->len, context->limits.shapes, "shapes", prototype->id,
+                                prototype->span, context->diags);
         if (status != FR_OK) {
             return status;
         }
@@ -469,6 +496,10 @@ void fr_prepared_free(FrPrepared *prepared, uint32_t count) {
         fr_flags_clear(&prepared[c].flags);
         g_free(prepared[c].variants);
         g_free(prepared[c].symbols);
+        g_free(prepared[c].pieces);
+        fr_mesh_file_unref(prepared[c].file);
+        fr_distance_free(prepared[c].distance);
+        fr_strewn_free(prepared[c].strewn);
         g_free(prepared[c].density);
         fr_curve_unref(prepared[c].crown);
         fr_revolved_free(prepared[c].revolved);

@@ -17,6 +17,11 @@ typedef enum FrShapeChoice {
     FR_SHAPE_EVALUATED, ///< its own: a parameter depends on where it is
 } FrShapeChoice;
 
+/// An object of a primitive: all of it, or what a file has of one material.
+typedef struct FrPiece {
+    uint32_t shape, material; ///< of the plant; a material FR_NONE is that of what it is part of
+} FrPiece;
+
 typedef struct FrPrepared {
     FrComponentKind kind;
     const void *params;
@@ -35,7 +40,11 @@ typedef struct FrPrepared {
     bool bears;        ///< multiplies at least one link
     uint32_t along;    ///< parameters of a stem that differ along it, bits 1 << FrAlong
     uint32_t profile;  ///< cross-section, of the plant; FR_NONE
-    uint32_t shape;    ///< primitive, or the one shape of a leaf, of the plant; FR_NONE
+    uint32_t shape;    ///< of a revo, or the one of a leaf, of the plant; FR_NONE
+    FrPiece *pieces;   ///< of a primitive; owned
+    uint32_t piece_count;
+    FrMeshFile *file;            ///< triangles; owned reference; NULL
+    struct FrDistance *distance; ///< from them, of a force; owned; NULL
     FrShapeChoice shape_choice;
     uint32_t variant_count, *variants; ///< shapes for FR_SHAPE_VARIANT; owned
     FrShape blade;                     ///< of a leaf: outline and curves filled in
@@ -46,18 +55,19 @@ typedef struct FrPrepared {
     const FrNumber *number;            ///< of children, of a multiplier that has one; NULL
     uint32_t number_parameter;         ///< … its row
     uint32_t number_times;             ///< … and how often it has so many
+    struct FrStrewnSurface *strewn;    ///< mesh of a scatter; owned
     struct FrRevolved *revolved;       ///< surface of a phyllotaxis; owned
     GArray *weights;                   ///< FrWeight, of a variation; owned
     const GArray *defines;             ///< FrGraftDefine, of a graft
     char *symbols;                     ///< of its links; owned; NULL
     uint32_t deformation;              ///< of an FFD or hyperpatch, of the plant
     double step;                       ///< m, of internodes in a scope or field
-    double low, top;                   ///< of a revo: its lowest point; where its outline ends
+    double low, top;                   ///< of a revo: its lowest point; where what follows stands
 } FrPrepared;
 
 /// One for each component that is reached, of a graph that has passed its check. Adds profiles,
-/// shapes, materials and components to the plant. Fails only by the limit of shapes; *prepared is
-/// to be freed all the same.
+/// shapes, materials and components to the plant. Fails by files that cannot be read and the limit
+/// of shapes; *prepared is to be freed all the same.
 FrStatus fr_prepare(FrPrepared **prepared, const FrPgraph *graph, const FrRecursions *recursions,
                     FrPlant *plant, GHashTable *faults, const FrContext *context);
 void fr_prepared_free(FrPrepared *prepared, uint32_t count);
@@ -85,7 +95,18 @@ GArray *fr_path_points(const char *path, const FrPrototype *prototype, FrDiags *
 /// All checks; without warnings for graphs that are about to be built.
 FrStatus fr_pgraph_check_all(const FrPgraph *graph, const FrRecursions *recursions, FrDiags *diags,
                              bool with_warnings);
+/// Reads the file that a component names into made->file.
+FrStatus fr_prepare_file(FrPrepared *made, const FrPgraph *graph, const FrPrototype *prototype,
+                         const char *name, const FrContext *context);
+/// Adds the pieces of a primitive to the plant; `made->file` has been read for FR_PRIMITIVE_MESH.
+void fr_prepare_pieces(FrPrepared *made, int primitive, vec3s size, int64_t detail, FrPlant *plant);
+/// The surface of a Force that is read from a file; nothing for others.
+FrStatus fr_prepare_body(FrPrepared *made, const FrPgraph *graph, const FrPrototype *prototype,
+                         const FrContext *context);
+/// The surface of a Scatter that is read from a file; nothing for others.
+FrStatus fr_prepare_scatter(FrPrepared *made, const FrPgraph *graph, const FrPrototype *prototype,
+                            const FrContext *context);
 /// Adds the shape of a Revo to the plant.
 void fr_prepare_revo(FrPrepared *made, FrPlant *plant);
-/// Half outline of a leaf form (FrLeafParams.outline) as a profile of the plant; FR_NONE: elliptic.
-uint32_t fr_leaf_outline(FrPlant *plant, int outline);
+/// The outline of a leaf as a profile of the plant; FR_NONE: elliptic.
+uint32_t fr_leaf_outline(FrPlant *plant, const FrLeafParams *leaf);

@@ -1,6 +1,7 @@
-// Scatter: children strewn over a disc, a square or a ring.
+// Scatter: children strewn over a disc, a square, a ring or the triangles of a file.
 #include "pgraph/bluenoise.h"
 #include "pgraph/spread.h"
+#include "pgraph/strewn.h"
 
 #include "plant/frames.h"
 
@@ -22,14 +23,22 @@ static double area_of(const FrScatterParams *params, double radius, double inner
     }
 }
 
-double fr_scatter_count(const FrScatterParams *params, FrEvaluator *evaluator) {
+double fr_scatter_count(const FrPrepared *prepared, FrEvaluator *evaluator) {
+    const FrScatterParams *params = prepared->params;
+    const FrStrewnSurface *mesh = prepared->strewn;
+    if (mesh != NULL && !(mesh->area > 0)) {
+        return 0;
+    }
     if (params->mode == FR_SCATTER_BY_NUMBER) {
         return fr_value(evaluator, &params->number, FR_SCATTER_number);
     }
+    double density = fr_value(evaluator, &params->density, FR_SCATTER_density);
+    if (mesh != NULL) {
+        return density * mesh->area;
+    }
     double radius = fr_value(evaluator, &params->radius, FR_SCATTER_radius);
     double inner = fr_value(evaluator, &params->inner_radius, FR_SCATTER_inner_radius);
-    return fr_value(evaluator, &params->density, FR_SCATTER_density) *
-           area_of(params, radius, inner);
+    return density * area_of(params, radius, inner);
 }
 
 // The rotation from the surface to the world's upright, in the frame of the scatter.
@@ -46,36 +55,89 @@ static versors to_upright(const FrSpread *spread, double part) {
     return fr_rotation_about(axis, (float)part * atan2f(sine, upright.z));
 }
 
-void fr_make_scatter(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
-                     FrEvaluator *place) {
-    FrSpread spread = fr_spread_begin(expansion, row, evaluator, place);
-    const FrScatterParams *params = expansion->prepared[spread.stage->component].params;
-    if (spread.count == 0) {
-        return;
+// Part of the turn from upright to a normal, in the frame of the scatter.
+static versors aligned(versors upright, const double normal[3], double part) {
+    vec3s up = fr_turned(upright, (vec3s){{0, 0, 1}});
+    vec3s wanted = {{(float)normal[0], (float)normal[1], (float)normal[2]}};
+    vec3s axis = glms_vec3_cross(up, wanted);
+    float sine = glms_vec3_norm(axis), angle = atan2f(sine, glms_vec3_dot(up, wanted));
+    axis = sine > 1e-6f ? glms_vec3_divs(axis, sine) : fr_frame_left(upright);
+    return fr_frame_step(fr_rotation_about(axis, (float)part * angle), upright);
+}
+
+// A point to stand on, in the coordinates of the scatter, and what turns a child there.
+typedef struct Spot {
+    vec3s at, normal;
+    versors turn;
+} Spot;
+
+static void write_child(FrSpread *spread, const FrScatterParams *params, uint32_t i, Spot spot) {
+    FrEvaluator *place = spread->place;
+#define FR_GET(field) fr_value(place, &params->field, FR_SCATTER_##field)
+    float push = (float)FR_GET(push), scale = (float)spread->centre.scale;
+    vec3s by = glms_vec3_scale(glms_vec3_add(spot.at, glms_vec3_scale(spot.normal, push)), scale);
+    versors turn = fr_turned_zyz(FR_GET(azimuth), FR_GET(tilt), PI / 2);
+    fr_spread_write(
+        spread, i, fr_spread_site(spread, by, fr_frame_step(spot.turn, turn), FR_GET(child_scale)));
+#undef FR_GET
+}
+
+static void strew_mesh(FrSpread *spread, const FrScatterParams *params, const FrStrewnSurface *mesh,
+                       uint32_t candidates, FrKey key) {
+    FrStrewnPoint *points = g_new(FrStrewnPoint, spread->count);
+    fr_strew(mesh, points, spread->count, candidates, key);
+    versors upright = to_upright(spread, 1);
+    for (uint32_t i = 0; i < spread->count; i++) {
+        if (fr_spread_wants(spread, i)) {
+            Spot spot = {.turn = aligned(upright, points[i].normal, params->align)};
+            for (int r = 0; r < 3; r++) {
+                spot.at.raw[r] = (float)points[i].at[r];
+                spot.normal.raw[r] = (float)points[i].normal[r];
+            }
+            fr_spread_enter(spread, i);
+            write_child(spread, params, i, spot);
+        }
     }
+    g_free(points);
+}
+
+static void strew_plane(FrSpread *spread, const FrScatterParams *params, uint32_t candidates,
+                        FrKey key) {
+    FrEvaluator *evaluator = spread->evaluator;
     double radius = fr_value(evaluator, &params->radius, FR_SCATTER_radius);
     double inner = fr_value(evaluator, &params->inner_radius, FR_SCATTER_inner_radius);
     double widest = params->surface == FR_SCATTER_RING ? fmax(radius, inner) : radius;
-    uint32_t candidates = (uint32_t)floor(1 + params->regularity * (MOST_CANDIDATES - 1) + 0.5);
-    double(*points)[2] = g_malloc_n(spread.count, sizeof *points);
-    fr_bluenoise(points, spread.count, (FrStrewnForm)params->surface,
-                 widest > 0 ? fmin(radius, inner) / widest : 0, candidates,
-                 fr_key_child(expansion->level.key[row], fr_purpose(FR_SCATTER_surface)));
-    widest *= spread.centre.scale;
-    versors upright = to_upright(&spread, 1 - params->align);
-#define FR_GET(field) fr_value(place, &params->field, FR_SCATTER_##field)
-    for (uint32_t i = 0; i < spread.count; i++) {
-        if (!fr_spread_wants(&spread, i)) {
-            continue;
+    double(*points)[2] = g_malloc_n(spread->count, sizeof *points);
+    fr_bluenoise(points, spread->count, (FrStrewnForm)params->surface,
+                 widest > 0 ? fmin(radius, inner) / widest : 0, candidates, key);
+    versors upright = to_upright(spread, 1 - params->align);
+    for (uint32_t i = 0; i < spread->count; i++) {
+        if (fr_spread_wants(spread, i)) {
+            Spot spot = {
+                .at = {{(float)(widest * points[i][0]), (float)(widest * points[i][1]), 0}},
+                .normal = {{0, 0, 1}},
+                .turn = upright,
+            };
+            fr_spread_enter(spread, i);
+            write_child(spread, params, i, spot);
         }
-        fr_spread_enter(&spread, i);
-        vec3s by = {{(float)(widest * points[i][0]), (float)(widest * points[i][1]),
-                     (float)(FR_GET(push) * spread.centre.scale)}};
-        versors turn = fr_turned_zyz(FR_GET(azimuth), FR_GET(tilt), PI / 2);
-        fr_spread_write(
-            &spread, i,
-            fr_spread_site(&spread, by, fr_frame_step(upright, turn), FR_GET(child_scale)));
     }
-#undef FR_GET
     g_free(points);
+}
+
+void fr_make_scatter(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator,
+                     FrEvaluator *place) {
+    FrSpread spread = fr_spread_begin(expansion, row, evaluator, place);
+    const FrPrepared *prepared = &expansion->prepared[spread.stage->component];
+    const FrScatterParams *params = prepared->params;
+    if (spread.count == 0) {
+        return;
+    }
+    uint32_t candidates = (uint32_t)floor(1 + params->regularity * (MOST_CANDIDATES - 1) + 0.5);
+    FrKey key = fr_key_child(expansion->level.key[row], fr_purpose(FR_SCATTER_surface));
+    if (prepared->strewn != NULL) {
+        strew_mesh(&spread, params, prepared->strewn, candidates, key);
+    } else {
+        strew_plane(&spread, params, candidates, key);
+    }
 }

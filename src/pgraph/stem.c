@@ -189,6 +189,7 @@ static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase bas
     stem->tropism.down = FR_GET(gravitropism);
     stem->tropism.flat = FR_GET(plagiotropism);
     stem->forks = FR_GET(forks);
+    stem->force_weight = FR_GET(force_weight);
     stem->deviation = stem->prepared->kind == FR_COMPONENT_TREE && stem->course == FR_COURSE_GROWN
                           ? FR_GET(deviation)
                           : 0;
@@ -262,6 +263,8 @@ FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrSte
         .key = evaluator->vars.key,
         .step = base.step,
         .is_in_field = base.is_in_field,
+        .order = base.order,
+        .is_on_ground = base.is_on_ground,
         .limb_count = 1,
         .axes = 1,
         .tips = 1,

@@ -18,6 +18,8 @@ typedef struct FrStemBase {
     bool is_in_field;        ///< other than plain gravity and light
     double bend, bend_aside; ///< radians, by hand
     const GArray *axis;      ///< drawn by hand, vec3s; NULL
+    uint32_t order;
+    bool is_on_ground; ///< borne by nothing
 } FrStemBase;
 
 /// A stretch of a stem that forks: between two forks, or a fork and an end.
@@ -66,6 +68,9 @@ typedef struct FrStem {
     versors step_chord, step_turn; ///< … first internode's rotation, each further's
     FrKey key;
     FrPlaces places; ///< of a Tree
+    double force_weight;
+    uint32_t order;
+    bool is_on_ground;
     double forks;
     FrLimb *limbs;       ///< parents first; owned; NULL: it does not fork
     uint32_t limb_count; ///< 1 unless it forks
@@ -101,9 +106,10 @@ uint32_t fr_limb_node_of(const FrStem *stem, const FrLimb *limb, double at, uint
 /// Fills rows first … of the plant's nodes, all on `axis`, whose offset and bearer are set, with
 /// `start` the rotation from the bearer's frame to the stem's. The limb it grows from has grown.
 /// Brings their cache up to date. Returns the rotation from the last internode's frame to that of
-/// the very tip.
+/// the very tip. A limb that has met what it ends at has short last rows that are marked FR_SHED;
+/// *end receives the node that what follows stands on.
 versors fr_limb_grow(const FrStem *stem, const FrLimb *limb, FrPlant *plant, uint32_t axis,
-                     uint32_t first, versors start, const FrFields *fields);
+                     uint32_t first, versors start, const FrFields *fields, uint32_t *end);
 /// Rotation of branch b about the stem at its place, without azimuth of its own, radians.
 static inline double fr_branch_azimuth(const FrPlaces *places, uint32_t b) {
     uint32_t place = b / places->whorl;

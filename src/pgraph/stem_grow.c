@@ -13,6 +13,9 @@
 
 static const versors identity = {{0, 0, 0, 1}};
 
+// What is left of an internode is left out if it is a smaller part than this.
+#define LEAST_STUMP 0.02
+
 // How far along the stem the walk is, and what has been turned up to there.
 typedef struct Walk {
     double at;
@@ -132,6 +135,9 @@ typedef struct Growth {
     uint32_t axis;   // of the plant
     uint32_t before; // node; FR_NONE: on the ground
     bool is_base;    // nothing of the stem has grown yet
+    uint32_t end;    // last node before what it has met; FR_NONE: it has met nothing
+    bool has_met;
+    uint64_t out; // bits of forces that it has been outside of
 } Growth;
 
 static versors frame_before(const Growth *growth) {
@@ -149,7 +155,13 @@ static versors with_fields(const Growth *growth, versors turn, double at, double
     if (!stem->is_in_field) {
         return turned_further(parent, turn, fr_tropism_turn(tropism, frame, step));
     }
-    FrDraw draw = {.tropism = tropism, .length = stem->length, .finest = stem->step};
+    FrDraw draw = {
+        .tropism = tropism,
+        .length = stem->length,
+        .finest = stem->step,
+        .weight = stem->force_weight,
+        .order = stem->order,
+    };
     uint32_t before = growth->before;
     vec3s from = growth->is_base ? fr_plant_axis_origin(growth->plant, growth->axis)
                                  : fr_advanced(nodes->position[before], nodes->frame[before],
@@ -165,6 +177,32 @@ static versors deflected(const Growth *growth, versors turn, double length, doub
     bool is_turned = fr_field_deflect(growth->fields, fr_frame_step(parent, turn), from, length,
                                       1.1 * radius, &aside);
     return is_turned ? turned_further(parent, turn, aside) : turn;
+}
+
+// Shortens an internode to where it meets what stems end at; from then on all are shed.
+static double stopped(Growth *growth, uint32_t node, versors turn, double length) {
+    FrNodes *nodes = &growth->plant->nodes;
+    if (growth->has_met) {
+        nodes->flags[node] |= FR_SHED;
+        return 0;
+    }
+    vec3s from = growth->is_base ? fr_plant_axis_origin(growth->plant, growth->axis)
+                                 : nodes->position[growth->before];
+    bool is_cut;
+    versors frame = fr_frame_step(frame_before(growth), turn);
+    // What begins inside on the ground grows out of it; branches there are none.
+    double free = fr_field_free(growth->fields, frame, from, length, &growth->out, &is_cut);
+    if (free >= length) {
+        return length;
+    }
+    bool is_gone = free < LEAST_STUMP * length;
+    nodes->flags[node] |= is_gone ? FR_SHED : 0;
+    growth->has_met = true;
+    growth->end = is_cut ? FR_NONE : is_gone ? growth->before : node;
+    if (is_cut) {
+        growth->plant->axes.flags[growth->axis] |= FR_CUT;
+    }
+    return free;
 }
 
 // Writes the next node of a growth.
@@ -255,6 +293,7 @@ static versors grow_evenly(Growth *growth, uint32_t first, versors start) {
         }
         if (stem->is_in_field) {
             own = deflected(growth, own, length, radius);
+            length = stopped(growth, first + k, own, length);
         }
         write_node(growth, first + k, own, length, radius, fr_stem_flatness(stem, end));
     }
@@ -319,7 +358,7 @@ static versors grow_path(Growth *growth, uint32_t first, versors start) {
 }
 
 versors fr_limb_grow(const FrStem *stem, const FrLimb *limb, FrPlant *plant, uint32_t axis,
-                     uint32_t first, versors start, const FrFields *fields) {
+                     uint32_t first, versors start, const FrFields *fields, uint32_t *end) {
     uint32_t last = plant->axes.last[axis];
     Growth growth = {
         .stem = stem,
@@ -329,13 +368,11 @@ versors fr_limb_grow(const FrStem *stem, const FrLimb *limb, FrPlant *plant, uin
         .axis = axis,
         .before = last != FR_NONE ? last : plant->axes.bearer[axis],
         .is_base = limb->before == FR_NONE,
+        .out = stem->is_on_ground ? 0 : UINT64_MAX,
     };
-    switch (stem->course) {
-    case FR_COURSE_PATH:
-        return grow_path(&growth, first, start);
-    case FR_COURSE_STEPS:
-        return grow_steps(&growth, first, start);
-    default:
-        return grow_evenly(&growth, first, start);
-    }
+    versors turn = stem->course == FR_COURSE_PATH    ? grow_path(&growth, first, start)
+                   : stem->course == FR_COURSE_STEPS ? grow_steps(&growth, first, start)
+                                                     : grow_evenly(&growth, first, start);
+    *end = growth.has_met && growth.end != FR_NONE ? growth.end : growth.before;
+    return turn;
 }

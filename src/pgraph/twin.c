@@ -148,9 +148,14 @@ static void copy_organs(const FrExpansion *expansion, uint32_t row, uint32_t cou
             organs->material[organ] = fr_instance_material(expansion, r);
             organs->component[organ] = fr_instance_stage(expansion, r)->component;
             organs->deformer[organ] = level->deformer[r];
-            organs->shape[organ] = prepared->kind == FR_COMPONENT_LEAF
-                                       ? fr_instance_leaf_shape(expansion, r, organ, evaluator)
-                                       : prepared->shape;
+            if (prepared->piece_count > 0) {
+                uint32_t piece = (organ - level->organ_count[r]) % prepared->piece_count;
+                fr_piece_write(expansion, r, organ, &prepared->pieces[piece]);
+            } else {
+                organs->shape[organ] = prepared->kind == FR_COMPONENT_LEAF
+                                           ? fr_instance_leaf_shape(expansion, r, organ, evaluator)
+                                           : prepared->shape;
+            }
         }
     }
 }

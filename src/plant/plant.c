@@ -30,6 +30,10 @@ static void material_unref(gpointer material) {
     fr_material_unref(material);
 }
 
+static void file_unref(gpointer file) {
+    fr_mesh_file_unref(file);
+}
+
 FrPlant *fr_plant_new(const char *name) {
     FrPlant *plant = g_new0(FrPlant, 1);
     plant->name = g_strdup(name != NULL ? name : "");
@@ -37,6 +41,7 @@ FrPlant *fr_plant_new(const char *name) {
     plant->profiles = g_array_new(FALSE, FALSE, sizeof(FrProfile));
     g_array_set_clear_func(plant->profiles, profile_clear);
     plant->materials = g_ptr_array_new_with_free_func(material_unref);
+    plant->files = g_ptr_array_new_with_free_func(file_unref);
     plant->deformers = g_array_new(FALSE, FALSE, sizeof(FrDeformer));
     plant->deformations = g_array_new(FALSE, FALSE, sizeof(FrDeformation));
     g_array_set_clear_func(plant->deformations, deformation_clear);
@@ -59,6 +64,7 @@ void fr_plant_free(FrPlant *plant) {
     g_array_unref(plant->shapes);
     g_array_unref(plant->profiles);
     g_ptr_array_unref(plant->materials);
+    g_ptr_array_unref(plant->files);
     g_array_unref(plant->deformers);
     g_array_unref(plant->deformations);
     g_array_unref(plant->components);
@@ -84,6 +90,9 @@ FrPlant *fr_plant_copy(const FrPlant *plant) {
     }
     for (guint i = 0; i < plant->materials->len; i++) {
         fr_plant_add_material(copy, g_ptr_array_index(plant->materials, i));
+    }
+    for (guint i = 0; i < plant->files->len; i++) {
+        fr_plant_add_file(copy, g_ptr_array_index(plant->files, i));
     }
     g_array_append_vals(copy->deformers, plant->deformers->data, plant->deformers->len);
     for (guint i = 0; i < plant->deformations->len; i++) {

@@ -45,7 +45,8 @@ GHashTable *fr_profile_index_new(void) {
 uint32_t fr_plant_add_shape(FrPlant *plant, const FrShape *shape) {
     // Parameters that the kind does not use must not tell two shapes apart.
     FrShape key = *shape;
-    key.outline = shape->kind == FR_SHAPE_REVOLUTION ? shape->outline : 0;
+    bool has_outline = shape->kind == FR_SHAPE_REVOLUTION || shape->kind == FR_SHAPE_FILE;
+    key.outline = has_outline ? shape->outline : 0;
     if (shape->kind == FR_SHAPE_BLADE) {
         key.size = (vec3s){{0, 0, 0}};
         key.detail = 0;
@@ -90,6 +91,15 @@ uint32_t fr_plant_add_material(FrPlant *plant, FrMaterial *material) {
     if (!g_ptr_array_find(plant->materials, material, &index)) {
         index = plant->materials->len;
         g_ptr_array_add(plant->materials, fr_material_ref(material));
+    }
+    return index;
+}
+
+uint32_t fr_plant_add_file(FrPlant *plant, FrMeshFile *file) {
+    guint index;
+    if (!g_ptr_array_find(plant->files, file, &index)) {
+        index = plant->files->len;
+        g_ptr_array_add(plant->files, fr_mesh_file_ref(file));
     }
     return index;
 }

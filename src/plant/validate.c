@@ -138,6 +138,14 @@ static void check_buds(const FrPlant *plant, FrFinding *finding) {
     }
 }
 
+static bool has_part(const FrPlant *plant, const FrShape *shape) {
+    if (shape->detail >= plant->files->len) {
+        return false;
+    }
+    const FrMeshFile *file = g_ptr_array_index(plant->files, shape->detail);
+    return shape->outline < file->part_count;
+}
+
 static void check_tables(const FrPlant *plant, FrFinding *finding) {
     for (guint i = 0; i < plant->shapes->len && finding->is_valid; i++) {
         const FrShape *shape = &g_array_index(plant->shapes, FrShape, i);
@@ -154,6 +162,9 @@ static void check_tables(const FrPlant *plant, FrFinding *finding) {
         } else if (shape->kind == FR_SHAPE_REVOLUTION && shape->outline >= plant->profiles->len) {
             found(finding, "shape %u has outline %u of %u", i, shape->outline,
                   plant->profiles->len);
+        } else if (shape->kind == FR_SHAPE_FILE && !has_part(plant, shape)) {
+            found(finding, "shape %u is part %u of file %u, which there is not", i, shape->outline,
+                  shape->detail);
         }
     }
     for (guint i = 0; i < plant->deformers->len && finding->is_valid; i++) {

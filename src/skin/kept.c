@@ -144,6 +144,10 @@ FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
     const FrSkinState *before = skin->state;
     const GArray *shapes = plant->shapes;
     FrDigest forms = fr_digest(0, shapes->data, shapes->len * sizeof(FrShape));
+    for (guint i = 0; i < plant->files->len; i++) {
+        const FrMeshFile *file = g_ptr_array_index(plant->files, i);
+        forms = fr_digest(forms, &file->digest, sizeof file->digest);
+    }
     bool is_same = has_same_rows && before != NULL && before->is_known &&
                    before->job.wood->inputs == fr_wood_inputs(plant) && plant->deformers->len == 0;
     skin->is_unchanged = is_same && before->forms == forms &&

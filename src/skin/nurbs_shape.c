@@ -207,6 +207,32 @@ static void lay_triangles(GArray *forms, const FrPlant *plant, const FrShape *sh
     }
 }
 
+static uint64_t file_triangles(const FrPlant *plant, const FrShape *shape) {
+    if (shape->detail >= plant->files->len) {
+        return 0;
+    }
+    const FrMeshFile *file = g_ptr_array_index(plant->files, shape->detail);
+    return shape->outline < file->part_count ? file->parts[shape->outline].index_count / 3 : 0;
+}
+
+static void lay_file(GArray *forms, const FrPlant *plant, const FrShape *shape) {
+    if (file_triangles(plant, shape) == 0) {
+        return;
+    }
+    const FrMeshFile *file = g_ptr_array_index(plant->files, shape->detail);
+    const FrMeshFilePart *part = &file->parts[shape->outline];
+    for (uint32_t i = part->first_index; i < part->first_index + part->index_count; i += 3) {
+        double corners[4][3];
+        for (uint32_t k = 0; k < 4; k++) {
+            vec3s at = file->positions[file->indices[i + MIN(k, 2)]];
+            for (int r = 0; r < 3; r++) {
+                corners[k][r] = (double)at.raw[r] * (double)shape->size.raw[r];
+            }
+        }
+        lay_patch(forms, (const double(*)[3])corners);
+    }
+}
+
 GArray *fr_nurbs_shape(const FrPlant *plant, const FrShape *shape, const FrNurbsParams *params) {
     GArray *forms = g_array_new(FALSE, FALSE, sizeof(FrNurbsForm));
     g_array_set_clear_func(forms, form_clear);
@@ -246,6 +272,9 @@ GArray *fr_nurbs_shape(const FrPlant *plant, const FrShape *shape, const FrNurbs
     case FR_SHAPE_MESH:
         lay_triangles(forms, plant, shape);
         break;
+    case FR_SHAPE_FILE:
+        lay_file(forms, plant, shape);
+        break;
     }
     return forms;
 }
@@ -260,6 +289,8 @@ uint64_t fr_nurbs_shape_bytes_most(const FrPlant *plant, const FrShape *shape) {
         return outline != NULL ? fr_count_multiply(outline->count, 9 * 32 + 64) + 1024 : 0;
     case FR_SHAPE_MESH:
         return triangles != NULL ? fr_count_multiply(triangles->count, 64) + 1024 : 0;
+    case FR_SHAPE_FILE:
+        return fr_count_multiply(file_triangles(plant, shape), 512) + 1024;
     default:
         return 8192;
     }

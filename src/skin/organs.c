@@ -103,7 +103,7 @@ static FrStatus prepare_shapes(FrOrganPlan *organs) {
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < plant->shapes->len; i++) {
         const FrShape *shape = &g_array_index(plant->shapes, FrShape, i);
-        bytes += organs->is_used[i] ? fr_shape_bytes_most(shape, &plan->detail) : 0;
+        bytes += organs->is_used[i] ? fr_shape_bytes_most(plant, shape, &plan->detail) : 0;
     }
     FrStatus status = fr_limit_check(bytes, context->limits.bytes, "bytes", "shapes of organs",
                                      (FrSpan){0}, context->diags);

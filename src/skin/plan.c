@@ -146,9 +146,9 @@ static FrTubeStart start_of_axis(const FrPlan *plan, uint32_t axis) {
     const FrSection *own = fr_plan_profile(plan, plant->axes.profile[axis]);
     bool is_strip =
         (of_parent != NULL && !of_parent->is_closed) || (own != NULL && !own->is_closed);
-    // What is thicker than its parent cannot sit on its surface.
+    // What is much thicker than its parent can neither sit on its surface nor begin within it.
     bool is_thicker = plant->nodes.next[bearer] != FR_NONE &&
-                      plant->axes.base_radius[axis] > 1.02F * plant->nodes.radius[bearer];
+                      plant->axes.base_radius[axis] > 1.25F * plant->nodes.radius[bearer];
     return is_strip || is_thicker ? FR_START_FREE : FR_START_BRANCH;
 }
 

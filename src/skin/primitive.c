@@ -231,6 +231,7 @@ void fr_shape_primitive(FrShapeMesh *mesh, const FrShape *shape, const FrDetail 
         lay_flat_kind(mesh, shape->kind, &size, around);
         break;
     case FR_SHAPE_MESH:
-        break; // fr_shape_triangles() makes it
+    case FR_SHAPE_FILE:
+        break; // have makers of their own
     }
 }

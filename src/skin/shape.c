@@ -37,13 +37,16 @@ uint32_t fr_shape_segments(uint32_t wanted, uint32_t least, uint32_t most, const
     return CLAMP((uint32_t)(count + 0.5), least, most);
 }
 
-uint64_t fr_shape_bytes_most(const FrShape *shape, const FrDetail *detail) {
+uint64_t fr_shape_bytes_most(const FrPlant *plant, const FrShape *shape, const FrDetail *detail) {
     // A primitive has at most a grid of 128 × 64 quads and two discs.
     uint64_t vertices = 129 * 65 + 2 * 128;
     if (shape->kind == FR_SHAPE_BLADE) {
         uint32_t along, across;
         fr_blade_segments(&shape->blade, detail, &along, &across);
         vertices = (uint64_t)(along + 1) * (2 * across + 1) + 12;
+    }
+    if (shape->kind == FR_SHAPE_FILE) {
+        vertices = fr_shape_file_vertices(plant, shape);
     }
     // Two triangles a vertex; arrays grow by doubling.
     return 2 * vertices * (sizeof(FrVertex) + 6 * sizeof(uint32_t));
@@ -59,6 +62,8 @@ void fr_shape_mesh_init(FrShapeMesh *mesh, const FrPlant *plant, uint32_t shape,
         fr_shape_revolution(mesh, plant, form, detail);
     } else if (form->kind == FR_SHAPE_MESH) {
         fr_shape_triangles(mesh, plant, form);
+    } else if (form->kind == FR_SHAPE_FILE) {
+        fr_shape_file(mesh, plant, form, detail);
     } else {
         fr_shape_primitive(mesh, form, detail);
     }

@@ -18,7 +18,7 @@ void fr_shape_mesh_init(FrShapeMesh *mesh, const FrPlant *plant, uint32_t shape,
 void fr_shape_mesh_clear(FrShapeMesh *mesh);
 
 /// At most so many bytes the mesh of a shape takes; counted, not made.
-uint64_t fr_shape_bytes_most(const FrShape *shape, const FrDetail *detail);
+uint64_t fr_shape_bytes_most(const FrPlant *plant, const FrShape *shape, const FrDetail *detail);
 
 /// Appends a vertex and answers its index.
 uint32_t fr_shape_vertex(FrShapeMesh *mesh, vec3s position, vec3s normal, float u, float v);
@@ -36,5 +36,9 @@ void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blad
 void fr_shape_revolution(FrShapeMesh *mesh, const FrPlant *plant, const FrShape *shape,
                          const FrDetail *detail);
 void fr_shape_primitive(FrShapeMesh *mesh, const FrShape *shape, const FrDetail *detail);
+/// FR_SHAPE_FILE: a part of a file, and at most so many vertices.
+void fr_shape_file(FrShapeMesh *mesh, const FrPlant *plant, const FrShape *shape,
+                   const FrDetail *detail);
+uint64_t fr_shape_file_vertices(const FrPlant *plant, const FrShape *shape);
 /// FR_SHAPE_MESH: the triangles of a profile.
 void fr_shape_triangles(FrShapeMesh *mesh, const FrPlant *plant, const FrShape *shape);

@@ -128,6 +128,42 @@ static void faint_bends(void) {
     built_free(built);
 }
 
+static const FrProfile *outline_of(const Built *built) {
+    const FrShape *shape = &g_array_index(built->plant->shapes, FrShape, 0);
+    g_assert_cmpuint(shape->blade.outline, !=, FR_NONE);
+    return &g_array_index(built->plant->profiles, FrProfile, shape->blade.outline);
+}
+
+static void superformula(void) {
+    // Gielis: m = 4, all n = 2 and a = b is a circle.
+    Built built = build("leaf L outline=superformula");
+    const FrProfile *circle = outline_of(&built);
+    for (uint32_t k = 0; k < circle->count; k++) {
+        double x = 2 * circle->points[k][0] - 1, y = 2 * circle->points[k][1];
+        g_assert_cmpfloat_with_epsilon(x * x + y * y, 1, 1e-9);
+    }
+    built_free(built);
+    // All n = 1 is a square on its corner.
+    built = build("leaf L outline=superformula;super-n1=1;super-n2=1;super-n3=1");
+    const FrProfile *square = outline_of(&built);
+    for (uint32_t k = 0; k < square->count; k++) {
+        double x = 2 * square->points[k][0] - 1, y = 2 * square->points[k][1];
+        g_assert_cmpfloat_with_epsilon(fabs(x) + fabs(y), 1, 1e-9);
+    }
+    built_free(built);
+}
+
+static void two_halves(void) {
+    Built built = build("leaf L outline-points=0,0 .5,.4 1,0;left-points=0,0 .4,.2 1,0");
+    const FrProfile *outline = outline_of(&built);
+    g_assert_true(outline->is_closed);
+    g_assert_cmpuint(outline->count, ==, 6);
+    g_assert_cmpfloat(outline->points[1][1], ==, 0.4);
+    g_assert_cmpfloat(outline->points[4][0], ==, 0.4);
+    g_assert_cmpfloat(outline->points[4][1], ==, -0.2);
+    built_free(built);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
 #define TEST(name, function) g_test_add_func("/pgraph/" name, function)
@@ -137,6 +173,8 @@ int main(int argc, char **argv) {
     TEST("a flare widens the foot", wide_feet);
     TEST("lobes are ribs of the cross-section", ribs);
     TEST("stems break by chance and bear nothing above", broken_stems);
+    TEST("the superformula makes the outlines of its paper", superformula);
+    TEST("a leaf may have two different halves", two_halves);
     TEST("bends are so fine that no joint shows", faint_bends);
     return g_test_run();
 }

@@ -141,6 +141,24 @@ static void test_thicker(void) {
     fr_plant_free(plant);
 }
 
+// A little thicker, it begins with a ring within its parent: no edge and no cap shows.
+static void test_little_thicker(void) {
+    FrPlant *plant = fr_plant_new("thicker");
+    check_stem(plant, FR_NONE, 20, 2.0F, 0.05F, 0.05F, check_straight, check_straight);
+    check_stem(plant, 10, 6, 1.0F, 0.058F, 0.058F,
+               fr_rotation_about((vec3s){{1, 0, 0}}, 1.5707963F), check_straight);
+    FrSkinParams params = twelve_sides();
+    FrMesh *mesh = check_skin(plant, &params), *bare = without_branch(plant);
+    check_sound(mesh);
+    for (int i = 0; i < COLUMNS; i++) {
+        const float *at = mesh->vertices[bare->vertex_count + (uint64_t)i].position;
+        g_assert_cmpfloat(hypotf(at[0], at[1]), <, 0.05F);
+    }
+    fr_mesh_free(mesh);
+    fr_mesh_free(bare);
+    fr_plant_free(plant);
+}
+
 // Without a collar a branch still begins inside, with one it begins wider.
 static void test_size(void) {
     float widest[3];
@@ -195,6 +213,8 @@ int main(int argc, char **argv) {
                     test_end);
     g_test_add_func("/skin/collar/a branch thicker than its parent begins round", test_thicker);
     g_test_add_func("/skin/collar/a branch may turn straight back along its stem", test_back);
+    g_test_add_func("/skin/collar/a branch a little thicker begins within its parent",
+                    test_little_thicker);
     g_test_add_func("/skin/collar/the size of a collar widens the base", test_size);
     return g_test_run();
 }

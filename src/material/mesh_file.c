@@ -1,0 +1,214 @@
+// Files of triangles: everything about them but assimp (mesh_file_assimp.c).
+#include "material/mesh_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/// Farther than this from the origin nothing of a plant stands, in metres.
+#define FARTHEST 1e6f
+
+static const char *const suffixes[] = {".obj", ".stl", ".gltf", ".glb"};
+
+static bool has_suffix(const char *name) {
+    const char *dot = strrchr(name, '.');
+    for (size_t k = 0; dot != NULL && k < G_N_ELEMENTS(suffixes); k++) {
+        if (g_ascii_strcasecmp(dot, suffixes[k]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool fr_mesh_path_is_inside(const char *name) {
+    if (name[0] == '\0' || g_path_is_absolute(name)) {
+        return false;
+    }
+    char **parts = g_strsplit_set(name, "/\\", -1);
+    bool is_inside = true;
+    for (char **part = parts; *part != NULL; part++) {
+        is_inside &= strcmp(*part, "..") != 0;
+    }
+    g_strfreev(parts);
+    return is_inside;
+}
+
+bool fr_mesh_name_check(const char *name, FrSpan span, FrDiags *diags) {
+    if (name == NULL || !fr_mesh_path_is_inside(name)) {
+        fr_diags_add(diags, FR_ERROR, "wrong-path", span,
+                     "'%.80s' is no path of a file below the document's folder",
+                     name != NULL ? name : "");
+        return false;
+    }
+    if (!has_suffix(name)) {
+        fr_diags_add(diags, FR_ERROR, "unknown-format", span,
+                     "'%.80s' is no file of triangles: .obj, .stl, .gltf or .glb", name);
+        return false;
+    }
+    return true;
+}
+
+// ---- what follows from the triangles ------------------------------------------------------------
+
+static bool is_sound(vec3s v) {
+    return fabsf(v.x) <= FARTHEST && fabsf(v.y) <= FARTHEST && fabsf(v.z) <= FARTHEST;
+}
+
+// Leaves out triangles with corners that are no places, and parts that are left without any.
+static void drop_unsound(FrMeshFile *file) {
+    uint32_t kept = 0, parts = 0;
+    for (uint32_t p = 0; p < file->part_count; p++) {
+        FrMeshFilePart part = file->parts[p];
+        uint32_t first = kept;
+        for (uint32_t i = part.first_index; i < part.first_index + part.index_count; i += 3) {
+            const uint32_t *corner = &file->indices[i];
+            bool is_kept = true;
+            for (int k = 0; k < 3; k++) {
+                is_kept &= corner[k] < file->vertex_count && is_sound(file->positions[corner[k]]);
+            }
+            memmove(&file->indices[kept], corner, 3 * sizeof *corner);
+            kept += is_kept ? 3 : 0;
+        }
+        part.first_index = first;
+        part.index_count = kept - first;
+        if (part.index_count > 0) {
+            file->parts[parts++] = part;
+        } else {
+            fr_material_unref(part.material);
+        }
+    }
+    file->part_count = parts;
+    file->index_count = kept;
+}
+
+static void mend_normals(FrMeshFile *file) {
+    for (uint32_t k = 0; k < file->vertex_count; k++) {
+        vec3s *n = &file->normals[k];
+        float size = sqrtf(n->x * n->x + n->y * n->y + n->z * n->z);
+        bool is_fine = size > 1e-6f && size < FARTHEST;
+        *n = is_fine ? (vec3s){{n->x / size, n->y / size, n->z / size}} : (vec3s){{0, 0, 1}};
+        for (int c = 0; c < 2; c++) {
+            file->uvs[k][c] = fabsf(file->uvs[k][c]) <= FARTHEST ? file->uvs[k][c] : 0;
+        }
+    }
+}
+
+static void bound(FrMeshFile *file) {
+    file->min = (vec3s){{INFINITY, INFINITY, INFINITY}};
+    file->max = (vec3s){{-INFINITY, -INFINITY, -INFINITY}};
+    for (uint32_t i = 0; i < file->index_count; i++) {
+        for (int r = 0; r < 3; r++) {
+            float at = file->positions[file->indices[i]].raw[r];
+            file->min.raw[r] = fminf(file->min.raw[r], at);
+            file->max.raw[r] = fmaxf(file->max.raw[r], at);
+        }
+    }
+}
+
+typedef struct Edge {
+    vec3s a, b; // the lesser place first
+} Edge;
+
+static int compare_places(const vec3s *a, const vec3s *b) {
+    for (int r = 0; r < 3; r++) {
+        if (a->raw[r] != b->raw[r]) {
+            return a->raw[r] < b->raw[r] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+static int compare_edges(const void *a, const void *b) {
+    const Edge *p = a, *q = b;
+    int first = compare_places(&p->a, &q->a);
+    return first != 0 ? first : compare_places(&p->b, &q->b);
+}
+
+static bool is_closed(const FrMeshFile *file) {
+    Edge *edges = g_new(Edge, MAX(file->index_count, 1));
+    for (uint32_t i = 0; i < file->index_count; i++) {
+        vec3s a = file->positions[file->indices[i]];
+        vec3s b = file->positions[file->indices[i % 3 == 2 ? i - 2 : i + 1]];
+        edges[i] = compare_places(&a, &b) < 0 ? (Edge){a, b} : (Edge){b, a};
+    }
+    qsort(edges, file->index_count, sizeof *edges, compare_edges);
+    bool is_whole = true;
+    for (uint32_t first = 0, end; first < file->index_count && is_whole; first = end) {
+        for (end = first; end < file->index_count && compare_edges(&edges[end], &edges[first]) == 0;
+             end++) {
+        }
+        is_whole = (end - first) % 2 == 0;
+    }
+    g_free(edges);
+    return is_whole;
+}
+
+static FrDigest digest_of(const FrMeshFile *file) {
+    size_t vertices = file->vertex_count;
+    FrDigest digest = fr_digest(0, file->positions, vertices * sizeof *file->positions);
+    digest = fr_digest(digest, file->normals, vertices * sizeof *file->normals);
+    digest = fr_digest(digest, file->uvs, vertices * sizeof *file->uvs);
+    digest = fr_digest(digest, file->indices, file->index_count * sizeof *file->indices);
+    for (uint32_t p = 0; p < file->part_count; p++) {
+        digest = fr_digest(digest, &file->parts[p].index_count, sizeof(uint32_t));
+    }
+    return digest;
+}
+
+// ---- files --------------------------------------------------------------------------------------
+
+FrMeshFile *fr_mesh_file_load(const char *folder, const char *name, FrSpan span,
+                              const FrContext *context, FrStatus *status) {
+    if (!fr_mesh_name_check(name, span, context->diags)) {
+        *status = FR_ERR_DOCUMENT;
+        return NULL;
+    }
+    char *path = g_build_filename(folder != NULL ? folder : ".", name, NULL);
+    struct stat stat_of;
+    FrMeshFile *file = NULL;
+    if (stat(path, &stat_of) != 0 || !S_ISREG(stat_of.st_mode)) {
+        fr_diags_add(context->diags, FR_ERROR, "missing-file", span, "there is no file '%s'", path);
+        *status = FR_ERR_DOCUMENT;
+    } else {
+        *status = fr_limit_check((uint64_t)stat_of.st_size, context->limits.document_bytes,
+                                 "document-bytes", name, span, context->diags);
+        file = *status == FR_OK ? fr_mesh_file_import(path, name, span, context, status) : NULL;
+    }
+    g_free(path);
+    if (file == NULL) {
+        return NULL;
+    }
+    drop_unsound(file);
+    if (file->index_count == 0) {
+        fr_diags_add(context->diags, FR_ERROR, "empty-mesh", span, "'%s' has no triangles", name);
+        *status = FR_ERR_DOCUMENT;
+        fr_mesh_file_unref(file);
+        return NULL;
+    }
+    mend_normals(file);
+    bound(file);
+    file->is_closed = is_closed(file);
+    file->digest = digest_of(file);
+    return file;
+}
+
+FrMeshFile *fr_mesh_file_ref(FrMeshFile *file) {
+    g_atomic_ref_count_inc(&file->references);
+    return file;
+}
+
+void fr_mesh_file_unref(FrMeshFile *file) {
+    if (file == NULL || !g_atomic_ref_count_dec(&file->references)) {
+        return;
+    }
+    for (uint32_t p = 0; p < file->part_count; p++) {
+        fr_material_unref(file->parts[p].material);
+    }
+    g_free(file->positions);
+    g_free(file->normals);
+    g_free(file->uvs);
+    g_free(file->indices);
+    g_free(file->parts);
+    g_free(file);
+}
