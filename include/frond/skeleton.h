@@ -16,8 +16,8 @@ typedef struct FrSegment {
     float radius;   ///< m, at both ends
 } FrSegment;
 
-/// The lines of a plant: one for every internode, and one from the tip of its bearer to its origin
-/// for every branch that begins elsewhere. Reads the cache. Free the array with g_free().
+/// The lines of a plant: its internodes, cut where branches stand along them. A branch begins on
+/// the middle of its bearer. Reads the cache. Free the array with g_free().
 FR_API FrSegment *fr_skeleton_segments(const FrPlant *plant, size_t *count);
 /// A plant from lines alone, in any order and direction. Ends nearer than `tolerance` (< 0: 1e-5 of
 /// the height) are one joint. What is connected is one stem with its branches, rooted in its lowest

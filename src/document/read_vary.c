@@ -40,6 +40,10 @@ FrVary *fr_read_vary(FrReader *reader, uint32_t node) {
     FrVaryParams params;
     fr_params_init(fr_vary_table(), &params);
     fr_read_attributes(reader, node, FR_ELEMENT_VARY, &params);
+    if (params.base == NULL && fr_xml_attribute(reader->tree, node, "base") != NULL) {
+        fr_read_error(reader, "unknown-plant", fr_read_value_place(reader, node, "base"),
+                      "the plant to vary has no name");
+    }
     FrVary *vary = fr_vary_new(&params);
     fr_params_clear(fr_vary_table(), &params);
     for (uint32_t child = fr_read_first(reader, node, FR_ELEMENT_STROKE); child != FR_NONE;

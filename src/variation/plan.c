@@ -8,6 +8,8 @@
 
 enum { MOST_JOINTS = 16 }; // that a stroke asks for by its points
 
+#define UPRIGHT 0.25f // the sine of what leaves the vertical by a seventh of a right angle
+
 typedef struct Preparation {
     FrVaryPlan *plan;
     const FrContext *context;
@@ -79,14 +81,27 @@ static versors roll_of(versors rotation) {
     return (versors){{0, 0, rotation.z / norm, rotation.w / norm}};
 }
 
+/// The turn of a stroke that begins along `from` onto a branch that begins along `to`. Where both
+/// leave the vertical it is about the vertical first, so that a stroke that rises lets branches on
+/// all sides rise; the rest, and all of it for upright ones, is the smallest rotation there is.
+static versors aligned(vec3s from, vec3s to) {
+    versors turn = GLMS_QUAT_IDENTITY;
+    if (hypotf(from.x, from.y) > UPRIGHT && hypotf(to.x, to.y) > UPRIGHT) {
+        float angle = atan2f(to.y, to.x) - atan2f(from.y, from.x);
+        turn = fr_rotation_about((vec3s){{0, 0, 1}}, angle);
+        from = glms_vec3_normalize(glms_quat_rotatev(turn, from));
+    }
+    return fr_frame_step(fr_rotation_between(from, to), turn);
+}
+
 typedef struct Scratch {
     float *lengths;
     vec3s *headings;
 } Scratch;
 
 /// Writes the rotations of an axis that follows its stroke. The stroke is turned so that it leaves
-/// the bearer as the branch does, by the smallest rotation; the roll of the joints, which says
-/// where leaves and branches stand around the stem, is kept.
+/// the bearer as the branch does; the roll of the joints, which says where leaves and branches
+/// stand around the stem, is kept.
 static void follow(FrVaryPlan *plan, uint32_t axis, Scratch scratch) {
     const FrNodes *nodes = &plan->base->nodes;
     const FrDrawn *drawn = &g_array_index(plan->vary->strokes, FrDrawn, plan->stroke[axis]);
@@ -96,8 +111,10 @@ static void follow(FrVaryPlan *plan, uint32_t axis, Scratch scratch) {
     }
     fr_stroke_resample(drawn->stroke, scratch.lengths, count, scratch.headings);
     uint32_t first = plan->base->axes.first[axis];
-    // In the frame of the first internode, which stays as it is.
-    versors align = fr_rotation_between(scratch.headings[0], (vec3s){{0, 0, 1}});
+    // Turned in the plant's coordinates, then seen from the first internode, which stays as it is.
+    versors stands = nodes->frame[first];
+    versors align = aligned(scratch.headings[0], glms_vec3_normalize(fr_frame_heading(stands)));
+    align = fr_frame_step(glms_quat_conjugate(stands), align);
     versors frame = GLMS_QUAT_IDENTITY;
     size_t n = 1;
     for (uint32_t i = nodes->next[first]; i != FR_NONE; i = nodes->next[i], n++) {

@@ -4,31 +4,93 @@
 #include <cglm/struct.h>
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define PLAIN_RADIUS 0.01f
 #define FARTHEST 1e9
 
+/// Where along the internodes of a plant branches stand, in ascending order for each.
+typedef struct Feet {
+    uint32_t *first; ///< of every node, into `along`; nodes + 1
+    float *along;    ///< part of the internode, from its beginning
+} Feet;
+
+/// How far along its bearer a branch stands, from 0 to 1.
+static float foot_of(const FrPlant *plant, uint32_t axis) {
+    float length = plant->nodes.length[plant->axes.bearer[axis]];
+    return length > 0 ? CLAMP(1 + plant->axes.offset[axis].z / length, 0.0f, 1.0f) : 1;
+}
+
+static int compare_feet(const void *a, const void *b) {
+    float one = *(const float *)a, other = *(const float *)b;
+    return (one > other) - (one < other);
+}
+
+static Feet find_feet(const FrPlant *plant) {
+    const FrAxes *axes = &plant->axes;
+    uint32_t nodes = plant->nodes.count;
+    Feet feet = {g_new0(uint32_t, (gsize)nodes + 2), g_new(float, (gsize)axes->count + 1)};
+    uint32_t *filled = feet.first + 1; // ends up as the first of the next
+    for (uint32_t a = 0; a < axes->count; a++) {
+        if (axes->bearer[a] != FR_NONE) {
+            filled[axes->bearer[a]]++;
+        }
+    }
+    for (uint32_t i = 0, total = 0; i < nodes; i++) {
+        uint32_t count = filled[i];
+        filled[i] = total;
+        total += count;
+    }
+    for (uint32_t a = 0; a < axes->count; a++) {
+        if (axes->bearer[a] != FR_NONE) {
+            feet.along[filled[axes->bearer[a]]++] = foot_of(plant, a);
+        }
+    }
+    for (uint32_t i = 0; i < nodes; i++) {
+        qsort(feet.along + feet.first[i], feet.first[i + 1] - feet.first[i], sizeof(float),
+              compare_feet);
+    }
+    return feet;
+}
+
+/// Where an internode begins: on the middle of its bearer if it is the first of a branch.
+static vec3s begin_of(const FrPlant *plant, uint32_t node) {
+    uint32_t axis = plant->nodes.axis[node], bearer = plant->axes.bearer[axis];
+    if (plant->axes.first[axis] != node) {
+        return plant->nodes.position[plant->nodes.parent[node]];
+    }
+    if (bearer == FR_NONE) {
+        return plant->axes.offset[axis];
+    }
+    vec3s heading = fr_frame_heading(plant->nodes.frame[bearer]);
+    float back = (foot_of(plant, axis) - 1) * plant->nodes.length[bearer];
+    return glms_vec3_add(plant->nodes.position[bearer], glms_vec3_scale(heading, back));
+}
+
 FrSegment *fr_skeleton_segments(const FrPlant *plant, size_t *count) {
     const FrNodes *nodes = &plant->nodes;
-    const FrAxes *axes = &plant->axes;
-    FrSegment *segments = g_new0(FrSegment, (size_t)nodes->count + axes->count + 1);
+    FrSegment *segments = g_new0(FrSegment, (size_t)nodes->count + plant->axes.count + 1);
+    Feet feet = find_feet(plant);
     *count = 0;
     for (uint32_t i = 0; i < nodes->count; i++) {
-        uint32_t axis = nodes->axis[i];
-        vec3s from;
-        if (axes->first[axis] != i) {
-            from = nodes->position[nodes->parent[i]];
-        } else {
-            from = fr_plant_axis_origin(plant, axis);
-            uint32_t bearer = axes->bearer[axis];
-            if (bearer != FR_NONE && glms_vec3_norm2(axes->offset[axis]) > 0) {
-                segments[(*count)++] =
-                    (FrSegment){nodes->position[bearer], from, axes->base_radius[axis]};
+        vec3s from = begin_of(plant, i), tip = nodes->position[i];
+        vec3s heading = fr_frame_heading(nodes->frame[i]);
+        float reached = 0;
+        for (uint32_t f = feet.first[i]; f < feet.first[i + 1]; f++) {
+            float along = feet.along[f];
+            if (along > reached && along < 1) {
+                vec3s to =
+                    glms_vec3_add(tip, glms_vec3_scale(heading, (along - 1) * nodes->length[i]));
+                segments[(*count)++] = (FrSegment){from, to, nodes->radius[i]};
+                from = to;
+                reached = along;
             }
         }
-        segments[(*count)++] = (FrSegment){from, nodes->position[i], nodes->radius[i]};
+        segments[(*count)++] = (FrSegment){from, tip, nodes->radius[i]};
     }
+    g_free(feet.first);
+    g_free(feet.along);
     return segments;
 }
 

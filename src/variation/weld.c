@@ -4,6 +4,7 @@
 #include <cglm/struct.h>
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define TOLERANCE 1e-5 // of the height
@@ -266,6 +267,39 @@ static void warn(const Weld *weld, FrDiags *diags) {
     }
 }
 
+static int compare_points(vec3s a, vec3s b) {
+    for (int k = 2; k >= 0; k--) {
+        if (a.raw[k] < b.raw[k] || a.raw[k] > b.raw[k]) {
+            return a.raw[k] < b.raw[k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+static int compare_segments(const void *a, const void *b) {
+    const FrSegment *one = a, *other = b;
+    int order = compare_points(one->from, other->from);
+    order = order != 0 ? order : compare_points(one->to, other->to);
+    return order != 0 ? order : (one->radius > other->radius) - (one->radius < other->radius);
+}
+
+/// The lines from the lowest upwards, each from its lower end: the plant must not depend on the
+/// order and the direction in which they were written. Free with g_free().
+static FrSegment *in_order(const FrSegment *segments, size_t count) {
+    FrSegment *sorted = g_new(FrSegment, count + 1);
+    for (size_t s = 0; s < count; s++) {
+        sorted[s] = segments[s];
+        if (compare_points(sorted[s].to, sorted[s].from) < 0) {
+            sorted[s].from = segments[s].to;
+            sorted[s].to = segments[s].from;
+        }
+    }
+    if (count > 1) {
+        qsort(sorted, count, sizeof *sorted, compare_segments);
+    }
+    return sorted;
+}
+
 FrStatus fr_skeleton_weld(const FrSegment *segments, size_t count, double tolerance,
                           const char *name, const FrContext *context, FrPlant **plant) {
     *plant = NULL;
@@ -280,6 +314,8 @@ FrStatus fr_skeleton_weld(const FrSegment *segments, size_t count, double tolera
                      "a line of the skeleton has no finite ends or no radius");
         return FR_ERR_DOCUMENT;
     }
+    FrSegment *sorted = in_order(segments, count);
+    weld.segments = sorted;
     weld.at = g_new(vec3s, 2 * count + 1);
     weld.joint = g_new(uint32_t, 2 * count + 1);
     weld.first = g_new0(uint32_t, 2 * count + 2);
@@ -293,6 +329,7 @@ FrStatus fr_skeleton_weld(const FrSegment *segments, size_t count, double tolera
     fr_plant_add_component(*plant, "branch", (FrSpan){0});
     grow_all(*plant, &weld);
     warn(&weld, context->diags);
+    g_free(sorted);
     g_free(weld.at);
     g_free(weld.joint);
     g_free(weld.first);

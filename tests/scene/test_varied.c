@@ -119,6 +119,7 @@ static void mistakes(void) {
         const char *text, *code;
     } rows[] = {
         {TREE "<plant id='a'><vary base='tee'/></plant>", "unknown-plant"},
+        {TREE "<plant id='a'><vary base=''/></plant>", "unknown-plant"},
         {TREE "<plant id='a'><vary/></plant>", "missing-attribute"},
         {TREE "<plant id='a'><vary base='a'/></plant>", "varied-base"},
         {TREE "<plant id='a'><vary base='tree'/><pgraph/></plant>", "two-definitions"},

@@ -170,8 +170,67 @@ static void hostile(void) {
     fr_diags_free(context.diags);
 }
 
+/// Branches that stand along straight internodes, beside their middle, keep their bearer.
+static void branches_along(void) {
+    FrPlant *plant = fr_plant_new("mast");
+    uint32_t mast = add_branch(plant, FR_NONE, 0, 2, 2);
+    plant->axes.base_radius[mast] = 0.1f;
+    for (uint32_t k = 0; k < 6; k++) {
+        uint32_t bearer = plant->axes.first[mast] + k % 2;
+        uint32_t axis = add_branch(plant, bearer, 1.2f, 3, 0.6f);
+        plant->axes.offset[axis] = (vec3s){{0.02f, 0, -0.15f * (float)(k + 1)}};
+        for (uint32_t i = plant->axes.first[axis]; i != FR_NONE; i = plant->nodes.next[i]) {
+            plant->nodes.radius[i] = 0.005f;
+        }
+    }
+    fr_plant_update_frames(plant, 0);
+    size_t count;
+    FrSegment *lines = fr_skeleton_segments(plant, &count);
+    g_assert_cmpuint(count, ==, 2 + 6 + 18); // the mast cut at six feet
+    FrContext context = fr_context_default();
+    FrPlant *again;
+    g_assert_cmpint(fr_skeleton_weld(lines, count, -1, "again", &context, &again), ==, FR_OK);
+    g_assert_cmpuint(again->axes.count, ==, 7);
+    uint32_t of_order[2] = {0, 0};
+    for (uint32_t a = 0; a < again->axes.count; a++) {
+        g_assert_cmpuint(again->axes.order[a], <, 2);
+        of_order[again->axes.order[a]]++;
+    }
+    g_assert_cmpuint(of_order[0], ==, 1);
+    g_assert_cmpuint(of_order[1], ==, 6);
+    fr_plant_free(again);
+    g_free(lines);
+    fr_plant_free(plant);
+}
+
+/// The same lines in another order and direction are the same plant.
+static void any_order(void) {
+    FrPlant *tree = small_tree();
+    size_t count;
+    FrSegment *lines = fr_skeleton_segments(tree, &count);
+    FrSegment *turned = g_new(FrSegment, count);
+    for (size_t i = 0; i < count; i++) {
+        FrSegment line = lines[(i * 7 + 3) % count];
+        turned[i] = i % 2 == 0 ? line : (FrSegment){line.to, line.from, line.radius};
+    }
+    g_assert_cmpuint(count % 7, !=, 0); // or the steps would not reach all
+    FrContext context = fr_context_default();
+    FrPlant *one, *other;
+    g_assert_cmpint(fr_skeleton_weld(lines, count, -1, "same", &context, &one), ==, FR_OK);
+    g_assert_cmpint(fr_skeleton_weld(turned, count, -1, "same", &context, &other), ==, FR_OK);
+    g_assert_cmpuint(fr_plant_digest(one), ==, fr_plant_digest(other));
+    fr_plant_free(one);
+    fr_plant_free(other);
+    g_free(turned);
+    g_free(lines);
+    fr_plant_free(tree);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/variation/skeleton/branches along an internode keep their bearer",
+                    branches_along);
+    g_test_add_func("/variation/skeleton/lines may come in any order and direction", any_order);
     g_test_add_func("/variation/skeleton/a rebuilt hierarchy is isomorphic to the plant's",
                     isomorphic);
     g_test_add_func("/variation/skeleton/thick stems go on as they did", branches_of_a_tree);

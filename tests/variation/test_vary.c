@@ -160,6 +160,38 @@ static void follows_the_stroke(void) {
     fr_plant_free(base);
 }
 
+/// A stroke that goes out and then up lifts a level branch, whatever side it is on and however its
+/// internodes are rolled.
+static void rises_on_all_sides(void) {
+    FrStroke *stroke = fr_stroke_parse("0,0,0 0.5,0,0 0.8,0,0.2 1,0,0.5 1,0,1", (FrSpan){0}, NULL);
+    FrVaryParams params = vary_params();
+    params.scatter = 0;
+    params.anticipation = 1;
+    for (int side = 0; side < 8; side++) {
+        FrPlant *plant = fr_plant_new("limb");
+        uint32_t axis = add_branch(plant, FR_NONE, 0, 12, 1.5f);
+        vec3s heading = {{cosf(0.785f * (float)side), sinf(0.785f * (float)side), 0}};
+        versors roll = fr_rotation_about((vec3s){{0, 0, 1}}, 1.3f * (float)side);
+        plant->nodes.rotation[plant->axes.first[axis]] =
+            fr_frame_step(fr_rotation_between((vec3s){{0, 0, 1}}, heading), roll);
+        fr_plant_update_frames(plant, 0);
+        FrVary *vary = fr_vary_new(&params);
+        fr_vary_add_stroke(vary, stroke, "", FR_APPLY_SELECTED, (FrSpan){0});
+        FrVaryPlan *plan = prepare(vary, plant);
+        FrPlant *grown = fr_vary_instance(plan, 1);
+        vec3s tip = grown->nodes.position[grown->axes.last[axis]];
+        g_assert_cmpfloat(tip.z, >, 0.6f);
+        g_assert_cmpfloat(glms_vec3_dot(tip, heading), >, 0.6f);
+        g_assert_cmpfloat(fabsf(tip.x * heading.y - tip.y * heading.x), <, 0.01f);
+        fr_plant_free(grown);
+        fr_vary_plan_free(plan);
+        fr_vary_free(vary);
+        fr_plant_free(plant);
+    }
+    fr_params_clear(fr_vary_table(), &params);
+    fr_stroke_unref(stroke);
+}
+
 /// A pole of one internode follows a stroke all the same, and leans in the wind.
 static void straight_stems_bend(void) {
     FrPlant *pole = fr_plant_new("pole");
@@ -335,6 +367,8 @@ static void refusals(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/variation/vary/a stroke that rises lifts branches on all sides",
+                    rises_on_all_sides);
     g_test_add_func("/variation/vary/a stem without joints is cut to bend", straight_stems_bend);
     g_test_add_func("/variation/vary/nothing drawn and nothing random is the base", nothing_drawn);
     g_test_add_func("/variation/vary/a local stroke changes one twig alone", one_twig_alone);
