@@ -163,6 +163,16 @@ static FrStatus copy_preset(const char *folder, const char *preset, const char *
     return status;
 }
 
+/// NAME.frond of a name without a folder's end; NULL after a message. Free with g_free().
+static char *new_path(const char *name) {
+    bool is_name = *name != '\0' && !g_str_has_suffix(name, "/");
+    if (!is_name) {
+        cli_message("'%s' is no name for a document", name);
+        return NULL;
+    }
+    return g_str_has_suffix(name, ".frond") ? g_strdup(name) : g_strconcat(name, ".frond", NULL);
+}
+
 FrStatus cli_new(CliSession *session) {
     const CliOptions *options = session->options;
     char *folder = find_presets();
@@ -178,10 +188,8 @@ FrStatus cli_new(CliSession *session) {
                     *hint == '\0' ? "; frond presets lists them" : hint);
         g_free(hint);
     } else {
-        const char *name = g_ptr_array_index(options->files, 0);
-        char *path =
-            g_str_has_suffix(name, ".frond") ? g_strdup(name) : g_strconcat(name, ".frond", NULL);
-        status = copy_preset(folder, preset, path);
+        char *path = new_path(g_ptr_array_index(options->files, 0));
+        status = path == NULL ? FR_ERR_USAGE : copy_preset(folder, preset, path);
         if (status == FR_OK && !options->is_quiet) {
             printf("%s\n", path);
         }

@@ -274,6 +274,8 @@ static void test_new(void) {
         {"new mine --preset ../oak", 2, "", "frond: there is no preset*"},
         {"new mine --preset oak", 0, "mine.frond\n", ""},
         {"new mine.frond --preset oak", 4, "", "frond: 'mine.frond' is there already*"},
+        {"new '' --preset oak", 2, "", "frond: '' is no name for a document\n"},
+        {"new presets/ --preset oak", 2, "", "frond: 'presets/' is no name for a document\n"},
         {"new none/mine --preset oak", 4, "", "frond: cannot write 'none/mine.frond'*"},
         {"check mine.frond", 0, "", ""},
     };
