@@ -215,13 +215,28 @@ FrDigest fr_edits_digest(FrDigest digest, const FrPgraph *graph) {
     return digest;
 }
 
-void fr_edits_report(const FrPgraph *graph, const uint8_t *has_place, FrDiags *diags) {
+// The last edit of each path.
+static GHashTable *last_edits(const FrPgraph *graph) {
+    GHashTable *last = g_hash_table_new(g_str_hash, g_str_equal);
     for (uint32_t k = 0; k < graph->edits->len; k++) {
-        if (!has_place[k]) {
-            const FrGraphEdit *edit = fr_graph_edit(graph, k);
+        g_hash_table_insert(last, fr_graph_edit(graph, k)->params.at, GUINT_TO_POINTER(k));
+    }
+    return last;
+}
+
+void fr_edits_report(const FrPgraph *graph, const uint8_t *has_place, FrDiags *diags) {
+    GHashTable *last = last_edits(graph);
+    for (uint32_t k = 0; k < graph->edits->len; k++) {
+        const FrGraphEdit *edit = fr_graph_edit(graph, k);
+        if (GPOINTER_TO_UINT(g_hash_table_lookup(last, edit->params.at)) != k) {
+            fr_diags_add(diags, FR_WARNING, "duplicate-edit", edit->span,
+                         "a later edit of '%.64s' takes the place of this one; write both as one",
+                         edit->params.at);
+        } else if (!has_place[k]) {
             fr_diags_add(diags, FR_WARNING, "edit-without-place", edit->span,
                          "there is no '%.64s' now, so this edit waits until there is",
                          edit->params.at);
         }
     }
+    g_hash_table_unref(last);
 }

@@ -64,5 +64,5 @@ GArray *fr_drawn_axis(const char *points);
 GArray *fr_drawn_axis(const char *points);
 /// What a build depends on besides its parameters.
 FrDigest fr_edits_digest(FrDigest digest, const FrPgraph *graph);
-/// Warns of edits that found no place.
+/// Warns of edits that found no place, or lost it to a later edit of the same path.
 void fr_edits_report(const FrPgraph *graph, const uint8_t *has_place, FrDiags *diags);

@@ -189,6 +189,17 @@ static void waits(void) {
     built_free(before);
 }
 
+static void later_one_counts(void) {
+    FrPgraph *graph = graph_read(plant);
+    add_edit(graph, "T/B[5]", "prune", "yes");
+    add_edit(graph, "T/B[5]", "scale", "2");
+    Built built = build_graph(graph, NULL);
+    g_assert_cmpuint(built_count(&built, "B"), ==, 6);
+    g_assert_cmpuint(fr_diags_count(built.diags), ==, 1);
+    g_assert_cmpstr(fr_diags_get(built.diags, 0)->code, ==, "duplicate-edit");
+    built_free(built);
+}
+
 static void bends(void) {
     // 60 degrees more from base to tip, the middle of the last internode counts.
     Built built = build_edited("horn H segments=30", "H", "bend", "60");
@@ -333,6 +344,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/pgraph/edit/all other instances stay as they were", others_stay);
     g_test_add_func("/pgraph/edit/an edit survives changes of number, sliders and seed", survives);
     g_test_add_func("/pgraph/edit/an edit without a place waits for it", waits);
+    g_test_add_func("/pgraph/edit/of two edits of one path the later counts, with a warning",
+                    later_one_counts);
     g_test_add_func("/pgraph/edit/a stem is bent over its length", bends);
     g_test_add_func("/pgraph/edit/what is hidden still bears", hides);
     g_test_add_func("/pgraph/edit/an instance is replaced with all that follows", replaces);
