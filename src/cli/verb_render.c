@@ -87,13 +87,42 @@ static char *frame_path(const char *path, int64_t frame) {
     return g_strdup_printf("%.*s-%04" G_GINT64_FORMAT "%s", (int)stem, path, frame, path + stem);
 }
 
+static bool is_told(const FrDiags *diags, const FrDiag *diag) {
+    for (size_t i = 0; i < fr_diags_count(diags); i++) {
+        const FrDiag *told = fr_diags_get(diags, i);
+        if (told->severity == diag->severity && strcmp(told->code, diag->code) == 0 &&
+            told->span.source == diag->span.source && told->span.begin == diag->span.begin &&
+            strcmp(told->text, diag->text) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Ends what `session->context.diags` began apart from `all`: adds to these what is new. The same
+/// holds for many frames of a sequence, and is told once.
+static void tell_once(CliSession *session, FrDiags *all) {
+    FrDiags *apart = session->context.diags;
+    for (size_t i = 0; i < fr_diags_count(apart); i++) {
+        const FrDiag *diag = fr_diags_get(apart, i);
+        if (!is_told(all, diag)) {
+            fr_diags_add(all, diag->severity, diag->code, diag->span, "%s", diag->text);
+        }
+    }
+    fr_diags_free(apart);
+    session->context.diags = all;
+}
+
 static FrStatus build_frame(CliSession *session, const FrDocument *document, int64_t frame,
                             FrScene **scene) {
     const CliOptions *options = session->options;
     double began = cli_now();
     double start = isnan(options->time) ? 0 : options->time;
     double time = start + (double)frame * fr_document_scene(document)->frame_time;
+    FrDiags *all = session->context.diags;
+    session->context.diags = fr_diags_new();
     FrStatus status = fr_scene_build_at(document, options->seed, time, &session->context, scene);
+    tell_once(session, all);
     session->build_seconds += cli_now() - began;
     return status;
 }

@@ -60,6 +60,12 @@ def wrong_frames(folder):
     assert [path.name for path in folder.iterdir()] == ["growing.frond"]
 
 
+def one_warning(folder):
+    document = growing(folder, '<edits><edit at="trunk/twig[99]" hide="yes"/></edits>\n')
+    error = tap.run("render", document, "-o", folder / "grow.png", "--frames", "1..3", *SMALL[1:]).stderr
+    assert error.count("[edit-without-place]") == 1, error
+
+
 def paths(document, component, *options):
     """The printed paths of the instances of a component."""
     lines = tap.run("info", document, "--paths", component, *options).stdout.splitlines()
@@ -135,6 +141,7 @@ TESTS = [
     ("/program/options/frames are named after their numbers", frames_are_named),
     ("/program/options/frames have the same bytes for any number of threads", frames_for_any_threads),
     ("/program/options/a wrong range of frames is refused and leaves nothing", wrong_frames),
+    ("/program/options/what all frames lack is warned of once", one_warning),
     ("/program/options/every printed path is a place of an edit", paths_have_places),
     ("/program/options/a path is that of one instance", one_path_is_one_instance),
     ("/program/options/paths on the arms of forks are places of edits", forked_paths_have_places),
