@@ -94,6 +94,18 @@ static const char *fault_text(const char *code) {
     return "a module could be decomposed or replaced further, but 'maximum depth' is reached";
 }
 
+static FrSpan place_span(const FrLsystem *system, uint32_t place) {
+    uint32_t production = place ^ FR_LPLACE_PRODUCTION;
+    if (production < system->productions->len) {
+        return g_array_index(system->productions, FrLproduction, production).span;
+    }
+    if (place >= system->places->len) {
+        return (FrSpan){0};
+    }
+    size_t at = g_array_index(system->places, uint32_t, place);
+    return fr_ltext_span(system->text, at, at + 1);
+}
+
 void fr_lderive_report(FrLderivation *derivation, FrLmachine *machine, const FrContext *context) {
     const FrLsystem *system = derivation->system;
     for (uint32_t i = 0; i < machine->fault_count; i++) {
@@ -101,12 +113,7 @@ void fr_lderive_report(FrLderivation *derivation, FrLmachine *machine, const FrC
         if (!g_hash_table_add(derivation->told, GUINT_TO_POINTER(fault->place + 1))) {
             continue;
         }
-        FrSpan span = {0};
-        if (fault->place < system->places->len) {
-            size_t at = g_array_index(system->places, uint32_t, fault->place);
-            span = fr_ltext_span(system->text, at, at + 1);
-        }
-        fr_diags_add(context->diags, FR_WARNING, fault->code, span,
+        fr_diags_add(context->diags, FR_WARNING, fault->code, place_span(system, fault->place),
                      "%s (step %" G_GUINT64_FORMAT ", module %" G_GUINT64_FORMAT ")",
                      fault_text(fault->code), derivation->step, fault->module + 1);
     }
@@ -119,9 +126,13 @@ FrStatus fr_lderive_check(FrLderivation *derivation, const FrContext *context) {
         return FR_OK;
     }
     machine->is_endless = false;
-    return fr_limit_check(
-        machine->loops, machine->most_loops, "iterations", "the statements of this file",
-        (FrSpan){g_ptr_array_index(derivation->system->text->sources, 0), 0, 0}, context->diags);
+    char *who = g_strdup_printf("the loop at step %" G_GUINT64_FORMAT ", module %" G_GUINT64_FORMAT,
+                                derivation->step, machine->endless.module + 1);
+    FrStatus status =
+        fr_limit_check(machine->loops, machine->most_loops, "iterations", who,
+                       place_span(derivation->system, machine->endless.place), context->diags);
+    g_free(who);
+    return status;
 }
 
 // ---- beginning --------------------------------------------------------------------------------

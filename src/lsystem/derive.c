@@ -89,8 +89,7 @@ static void decompose(Step *step, guint offset, guint count, const FrLsite *site
             &step->matcher, step->decomposition, words + at, words + offset + count, site, &taken);
         if (production != NULL && depth >= step->depth) {
             if (step->decomposition->warns && step->depth > 0) {
-                uint32_t place = production->values == FR_NONE ? 0 : production->values;
-                fr_lmachine_fault(step->matcher.machine, "decomposition-depth", place);
+                fr_lmachine_fault_depth(step->matcher.machine, "decomposition-depth", production);
             }
             production = NULL;
         }

@@ -58,8 +58,7 @@ static void replace(Reading *reading, guint offset, guint count, const FrLsite *
                                                words + offset + count, site, &taken);
         if (production != NULL && depth >= reading->depth) {
             if (reading->section->warns) {
-                fr_lmachine_fault(reading->matcher.machine, "homomorphism-depth",
-                                  production->values == FR_NONE ? 0 : production->values);
+                fr_lmachine_fault_depth(reading->matcher.machine, "homomorphism-depth", production);
             }
             production = NULL;
         }

@@ -195,7 +195,10 @@ static void close_machines(Step *step, int threads) {
             machine->module = worker->faults[f].module;
             fr_lmachine_fault(machine, worker->faults[f].code, worker->faults[f].place);
         }
-        machine->is_endless |= worker->is_endless;
+        if (worker->is_endless && !machine->is_endless) {
+            machine->is_endless = true;
+            machine->endless = worker->endless;
+        }
         machine->loops = MAX(machine->loops, worker->loops);
         g_free(worker->variables);
     }

@@ -7,8 +7,24 @@
 
 #include <string.h>
 
+#define MOST_CALLS 10000
+
+/// Functions only call those before them, and yet a few lines can make calls without end.
+static uint64_t count_calls(const FrLsystem *system, uint32_t code) {
+    uint64_t calls = 1;
+    for (; code < system->code->len; code++) {
+        const FrLcode *at = &g_array_index(system->code, FrLcode, code);
+        if (at->op == FR_LOP_USER) {
+            uint64_t more = g_array_index(system->functions, FrLfunction, at->a).calls;
+            calls = fr_count_add(calls, more);
+        }
+    }
+    return calls;
+}
+
 static void read_function(FrLparser *parser, char *name) {
-    FrLfunction function = {name, parser->unit->variables, 0, 0};
+    size_t start = parser->at - strlen(name);
+    FrLfunction function = {name, parser->unit->variables, 0, 0, 1};
     parser->locals = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
     fr_lparse_expect(parser, "(");
     do {
@@ -31,6 +47,12 @@ static void read_function(FrLparser *parser, char *name) {
     if (!parser->has_failed && parser->system->functions->len >= 64) {
         fr_lparse_error(parser, parser->at, parser->at, "limit-functions",
                         "a file has at most 64 functions");
+    }
+    function.calls = parser->has_failed ? 1 : count_calls(parser->system, function.code);
+    if (function.calls > MOST_CALLS) {
+        fr_lparse_error(parser, start, parser->at, "limit-calls",
+                        "one call of '%s' makes more than %d calls of functions", name, MOST_CALLS);
+        function.calls = 1; // told once
     }
     g_array_append_val(parser->system->functions, function);
 }

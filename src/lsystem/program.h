@@ -163,6 +163,7 @@ typedef struct FrLfunction {
     uint32_t first; ///< variable of its first formal; the others follow
     uint32_t count;
     uint32_t code;
+    uint64_t calls; ///< of functions that one call makes, itself included
 } FrLfunction;
 
 /// Variables of every L-system; behind them come the values set from outside.

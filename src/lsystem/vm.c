@@ -52,6 +52,13 @@ void fr_lmachine_fault(FrLmachine *machine, const char *code, uint32_t place) {
     }
 }
 
+void fr_lmachine_fault_depth(FrLmachine *machine, const char *code,
+                             const FrLproduction *production) {
+    const GArray *productions = machine->system->productions;
+    ptrdiff_t index = production - (const FrLproduction *)(const void *)productions->data;
+    fr_lmachine_fault(machine, code, FR_LPLACE_PRODUCTION | (uint32_t)index);
+}
+
 /// The variable of an element. What is out of range becomes the nearest that is in it; fractions
 /// count until the place is known.
 static uint32_t element(FrLmachine *machine, const FrLcode *code, const double *indices,
@@ -188,6 +195,9 @@ double fr_lmachine_run(FrLmachine *machine, uint32_t start) {
             break;
         case FR_LOP_BACK:
             if (++machine->loops > machine->most_loops) {
+                if (!machine->is_endless) {
+                    machine->endless = (FrLfault){"limit-iterations", code->a, machine->module};
+                }
                 machine->is_endless = true;
                 return 0;
             }

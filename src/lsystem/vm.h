@@ -9,11 +9,12 @@
 /// What went wrong while evaluating. The first places are kept, in the order of the string.
 typedef struct FrLfault {
     const char *code; ///< of the diagnostic; static
-    uint32_t place;   ///< index of the code
+    uint32_t place;   ///< index of the code; with FR_LPLACE_PRODUCTION of the production
     uint64_t module;  ///< being rewritten
 } FrLfault;
 
 #define FR_LFAULTS 32
+#define FR_LPLACE_PRODUCTION UINT32_C(0x80000000)
 
 typedef struct FrLrandom {
     uint64_t state; ///< 48 bits
@@ -34,8 +35,9 @@ typedef struct FrLmachine {
     uint32_t fault_count;
     int64_t *set_length; ///< SetDerivationLength writes here
     uint64_t length;
-    bool is_stopped; ///< by stop()
-    bool is_endless; ///< the limit of loops was reached
+    bool is_stopped;  ///< by stop()
+    bool is_endless;  ///< the limit of loops was reached
+    FrLfault endless; ///< by which loop, at which module
     void (*print)(void *user, const char *text);
     void *print_user;
 } FrLmachine;
@@ -45,6 +47,9 @@ double fr_lmachine_run(FrLmachine *machine, uint32_t code);
 /// The value of an operator of two numbers, for folding too. `is_fault` may be NULL.
 double fr_lmachine_binary(FrLop op, double a, double b, bool *is_fault);
 void fr_lmachine_fault(FrLmachine *machine, const char *code, uint32_t place);
+/// A production of a decomposition or homomorphism would go deeper than it may.
+void fr_lmachine_fault_depth(FrLmachine *machine, const char *code,
+                             const FrLproduction *production);
 /// Calls a built-in function.
 double fr_lbuiltin_call(FrLmachine *machine, uint32_t function, const double *arguments,
                         uint32_t count);

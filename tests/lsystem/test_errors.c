@@ -26,11 +26,17 @@ static const Kind kinds[] = {
     {HEAD "A(x) --> FFA(x+1)\nF --> F(1/0)\nendlsystem\n", 3, FR_OK, "division-by-zero", 5, 10,
      "by zero"},
     {HEAD "X --> X\ndecomposition\nmaximum depth: 5\nA(x) --> A(x+1)\nendlsystem\n", 1, FR_OK,
-     "decomposition-depth", 7, 12, "(step 1, module 1)"},
+     "decomposition-depth", 7, 1, "(step 1, module 1)"},
+    {HEAD "A(x) --> B\ndecomposition\nB --> C\nC --> D\nendlsystem\n", 1, FR_OK,
+     "decomposition-depth", 7, 1, "(step 1, module 1)"},
     {HEAD "A(x) --> A(x)A(x)A(x)A(x)A(x)A(x)A(x)A(x)\nendlsystem\n", 30, FR_ERR_LIMIT,
      "limit-modules", 4, 1, "100000"},
     {HEAD "A(x) : { while (1) { x = x; } } 1 --> A(x)\nendlsystem\n", 1, FR_ERR_LIMIT,
-     "limit-iterations", 1, 1, "1000"},
+     "limit-iterations", 4, 17, "the loop at step 1, module 1"},
+    {"a(i) = i+i\nb(i) = a(a(a(a(i))))\nc(i) = b(b(b(b(b(b(b(b(i))))))))\n"
+     "d(i) = c(c(c(c(c(c(c(c(i))))))))\ne(i) = d(d(d(d(d(d(d(d(i))))))))\n"
+     "g(i) = e(e(e(e(e(e(e(e(i))))))))\nw : A\np1 : A -> B(g(1))\n",
+     1, FR_ERR_DOCUMENT, "limit-calls", 6, 1, "10000"},
 };
 
 /// The first diagnostic of that code.
