@@ -41,8 +41,8 @@ typedef struct FrScene {
     uint32_t obstacles; ///< how many of the last plants and stands are obstacles, 0 or 1: one plant
                         ///< whose organs they are
     GArray *steps;      ///< FrSceneStep; NULL or empty: nothing grew in the light
-    double light_seconds; ///< of all steps
-    FrLightStats light;   ///< of the last step
+    double light_seconds; ///< of all steps, and of sampling directions to the light
+    FrLightStats light;   ///< of the last plants that answered it
     uint64_t seed;
     bool is_framed; ///< views show the box below, not what there is: sequences
     double frame_min[3], frame_max[3];

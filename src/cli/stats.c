@@ -77,14 +77,20 @@ static json_t *seconds_of(const CliSession *session, const FrScene *scene, const
     return seconds;
 }
 
+/// What light was made for plants that answer it.
+static void set_light(json_t *stats, const FrScene *scene) {
+    if (scene->light_seconds > 0) {
+        set_count(stats, "photons", scene->light.photons);
+        set_count(stats, "rays", scene->light.rays);
+    }
+}
+
 /// What every step of plants that grow in the light took and made.
 static void set_steps(json_t *stats, const FrScene *scene) {
     if (scene->steps == NULL || scene->steps->len == 0) {
         return;
     }
     set_count(stats, "steps", scene->steps->len);
-    set_count(stats, "photons", scene->light.photons);
-    set_count(stats, "rays", scene->light.rays);
     json_t *steps = json_array();
     for (guint i = 0; i < scene->steps->len; i++) {
         const FrSceneStep *step = &g_array_index(scene->steps, FrSceneStep, i);
@@ -149,6 +155,7 @@ static json_t *make_stats(const CliSession *session, const char *document, const
         set_count(stats, "vertices", io->vertices);
         set_count(stats, "triangles", io->triangles);
     }
+    set_light(stats, scene);
     set_steps(stats, scene);
     json_object_set_new(stats, "seconds", seconds_of(session, scene, io));
     set_count(stats, "peak_bytes", peak_bytes());

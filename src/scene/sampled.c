@@ -51,8 +51,9 @@ void fr_sampled_add(FrSampled *sampled, FrScene *scene, const FrPlantDef *defini
     g_array_append_val(scene->stands, stands);
 }
 
-static FrStatus sample_light(const Sprout *sprout, const FrDocument *document, FrLighting *lighting,
-                             const FrContext *context, FrLightField **field) {
+/// The directions to the light around the sprout, and what they cost.
+static FrStatus sample_light(const Sprout *sprout, const FrDocument *document, FrScene *scene,
+                             FrLighting *lighting, const FrContext *context, FrLightField **field) {
     FrScenePlant plain;
     FrStatus status = fr_scene_grow(document, sprout->definition, sprout->seed, sprout->time,
                                     context, &plain, NULL);
@@ -69,19 +70,22 @@ static FrStatus sample_light(const Sprout *sprout, const FrDocument *document, F
     float margin = MARGIN * glms_vec3_norm(glms_vec3_sub(max, min));
     const double *at = sprout->stand.at;
     FrLightPlace place = {{at[0], at[1], at[2]}, sprout->stand.turn, sprout->stand.scale};
-    status = fr_lighting_field(lighting, &place, glms_vec3_subs(min, margin),
-                               glms_vec3_adds(max, margin), CELLS, context, field);
-    fr_lighting_forget(lighting);
+    double began = (double)g_get_monotonic_time() * 1e-6;
+    status = fr_lighting_update(lighting, scene, context);
+    if (status == FR_OK) {
+        status = fr_lighting_field(lighting, &place, glms_vec3_subs(min, margin),
+                                   glms_vec3_adds(max, margin), CELLS, context, field);
+        fr_lighting_forget(lighting);
+    }
+    scene->light_seconds += (double)g_get_monotonic_time() * 1e-6 - began;
+    scene->light = fr_lighting_stats(lighting);
     return status;
 }
 
 static FrStatus build_one(const Sprout *sprout, const FrDocument *document, FrScene *scene,
                           FrLighting *lighting, const FrContext *context) {
-    FrStatus status = fr_lighting_update(lighting, scene, context);
     FrLightField *field = NULL;
-    if (status == FR_OK) {
-        status = sample_light(sprout, document, lighting, context, &field);
-    }
+    FrStatus status = sample_light(sprout, document, scene, lighting, context, &field);
     FrScenePlant made;
     if (status == FR_OK) {
         status = fr_scene_grow_in_light(document, sprout->definition, sprout->seed, sprout->time,

@@ -53,6 +53,15 @@ static void test_lamp(void) {
     forget(&built);
 }
 
+/// As of plants that grow in the light.
+static void test_told(void) {
+    Built built = build(DOCUMENT("<light by='density' photons='1000'/>"));
+    g_assert_cmpuint(built.scene->light.photons, ==, 1000);
+    g_assert_cmpuint(built.scene->light.rays, >, 0);
+    g_assert_cmpfloat(built.scene->light_seconds, >, 0);
+    forget(&built);
+}
+
 static void test_without_light(void) {
     Built built = build(DOCUMENT(""));
     g_assert_cmpuint(built.scene->plants->len, ==, 1);
@@ -63,6 +72,7 @@ static void test_without_light(void) {
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/scene/sampled/stems are drawn to the lamp from where they stand", test_lamp);
+    g_test_add_func("/scene/sampled/photons and time of the light are told", test_told);
     g_test_add_func("/scene/sampled/without a light the formulas hold", test_without_light);
     return g_test_run();
 }
