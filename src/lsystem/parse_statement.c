@@ -101,6 +101,8 @@ static void read_assignment(FrLparser *parser) {
     size_t begin = parser->at;
     char *name = fr_lparse_name(parser);
     uint32_t array = fr_lparse_find_array(parser, name), count = 0;
+    // Known from here on: its own value may stand behind the '='.
+    uint32_t variable = array == FR_NONE ? fr_lparse_variable(parser, name, true, begin) : FR_NONE;
     if (array != FR_NONE) {
         while (!parser->has_failed && fr_lparse_accept(parser, "[")) {
             fr_lparse_expression(parser);
@@ -118,8 +120,7 @@ static void read_assignment(FrLparser *parser) {
     if (array != FR_NONE) {
         fr_lparse_emit(parser, FR_LOP_INDEX_STORE, array, count, 0, begin);
     } else {
-        fr_lparse_emit(parser, FR_LOP_STORE, fr_lparse_variable(parser, name, true, begin), 0, 0,
-                       begin);
+        fr_lparse_emit(parser, FR_LOP_STORE, variable, 0, 0, begin);
     }
     parser->is_impure = true;
     fr_lparse_expect(parser, ";");

@@ -101,10 +101,24 @@ static void many(void) {
     fr_diags_free(context.diags);
 }
 
+static void counters(void) {
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    const char text[] = HEAD "A(x) : { n = n + 1; } 1 --> A(n)\nendlsystem\n";
+    FrSource *source = fr_source_new("test.l", text, sizeof text - 1);
+    FrLsystem *system;
+    g_assert_cmpint(fr_lsystem_compile(source, NULL, &context, &system), ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(context.diags), ==, 0);
+    fr_lsystem_free(system);
+    fr_source_unref(source);
+    fr_diags_free(context.diags);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/lsystem/errors/each kind has a code, a place, a step and a module",
                     all_kinds);
     g_test_add_func("/lsystem/errors/one run tells of many", many);
+    g_test_add_func("/lsystem/errors/a variable that counts itself is known", counters);
     return g_test_run();
 }
