@@ -120,7 +120,8 @@ void fr_scene_bounds(const FrScene *scene, double min[3], double max[3]) {
     }
     Box *boxes = g_new(Box, scene->plants->len + 1);
     for (guint i = 0; i < scene->plants->len; i++) {
-        boxes[i] = plant_box(g_array_index(scene->plants, FrScenePlant, i).plant);
+        const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, i).plant;
+        boxes[i] = plant != NULL ? plant_box(plant) : (Box){.min = {{1, 1, 1}}};
     }
     for (guint i = 0; i < scene->stands->len; i++) {
         const FrStand *stand = &g_array_index(scene->stands, FrStand, i);

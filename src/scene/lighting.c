@@ -13,7 +13,8 @@
 
 // Suns and skies tell light in kW/m², lamps in W.
 #define KILO 1000.0
-// Plants may grow so far beyond where they stand without changing what suns shine on, in metres.
+// Plants may grow so far beyond where they stand without changing what suns shine on, in metres;
+// beyond that it is widened by as much or by half its width, as all photons start anew then.
 #define ROOM_TO_GROW 3.0
 
 /// A plant as a mesh.
@@ -78,6 +79,21 @@ static void find_room(FrLighting *lighting, const FrScene *scene) {
     }
     lighting->min = (vec3s){{(float)min[0], (float)min[1], (float)min[2]}};
     lighting->max = (vec3s){{(float)max[0], (float)max[1], (float)max[2]}};
+}
+
+/// Widens what suns and skies shine on where plants have grown out of it.
+static void widen_room(FrLighting *lighting, const FrScene *scene) {
+    if (scene->params->sun_strength <= 0 && scene->params->sky_strength <= 0) {
+        return;
+    }
+    double min[3], max[3];
+    fr_scene_bounds(scene, min, max);
+    for (int axis = 0; axis < 3; axis++) {
+        float *low = &lighting->min.raw[axis], *high = &lighting->max.raw[axis];
+        double more = fmax(ROOM_TO_GROW, 0.5 * (double)(*high - *low));
+        *low = min[axis] < (double)*low ? (float)(min[axis] - more) : *low;
+        *high = max[axis] > (double)*high ? (float)(max[axis] + more) : *high;
+    }
 }
 
 static FrLight *new_views(const FrLightParams *params) {
@@ -230,6 +246,7 @@ static FrStatus set_scene(FrLighting *lighting, const FrScene *scene, const GArr
 FrStatus fr_lighting_update(FrLighting *lighting, const FrScene *scene, const FrContext *context) {
     GArray *meshed = g_array_new(FALSE, TRUE, sizeof(Meshed));
     g_array_set_clear_func(meshed, clear_meshed);
+    widen_room(lighting, scene);
     FrStatus status = mesh_all(lighting, scene, context, meshed);
     if (status == FR_OK) {
         status = set_scene(lighting, scene, meshed, context);

@@ -70,6 +70,26 @@ static void test_bending(void) {
     forget(&built);
 }
 
+/// Branches are as long as it is bright: under open sky all alike, however high.
+static void test_tall(void) {
+    Built built = build(
+        "<frond version='1'><plant id='p'><lsystem><![CDATA[\nLsystem: 1\nderivation length: 10\n"
+        "axiom: I(?)A\nI(i) < A --> "
+        "!(0.01)F(1)[&(90)F(0.01+i/5000)]I(?)A\nendlsystem\n]]></lsystem></plant>"
+        "<scene ground='no'><light by='density' photons='50000' distance='0.5'/><place plant='p'/>"
+        "</scene></frond>");
+    const FrPlant *plant = plant_at(&built, 0);
+    g_assert_cmpuint(plant->nodes.count, ==, 20);
+    float shortest = INFINITY, longest = 0;
+    for (uint32_t axis = 1; axis < plant->axes.count; axis++) {
+        float length = plant->nodes.length[plant->axes.last[axis]];
+        shortest = fminf(shortest, length);
+        longest = fmaxf(longest, length);
+    }
+    g_assert_cmpfloat(shortest, >, 0.7f * longest);
+    forget(&built);
+}
+
 /// Light is that of the world: turned and scaled plants lean to the same lamp.
 static void test_stands(void) {
     Built built = build(DOCUMENT(BENDING, "<light near='0.1'/>" LAMP "<place plant='p'/>"
@@ -176,6 +196,7 @@ static void test_without_light(void) {
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/scene/growing/a branch bends to the lamp, by so much a step", test_bending);
+    g_test_add_func("/scene/growing/the sun shines on plants however tall they grow", test_tall);
     g_test_add_func("/scene/growing/turned and scaled plants lean to the same lamp", test_stands);
     g_test_add_func("/scene/growing/shade makes long internodes and no flowers", test_shade);
     g_test_add_func("/scene/growing/plants shade each other", test_neighbours);
