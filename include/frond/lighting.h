@@ -12,6 +12,11 @@ typedef struct FrLighting FrLighting;
 FR_API FR_MUST_USE FrStatus fr_lighting_new(const FrScene *scene, const FrContext *context,
                                             FrLighting **lighting);
 FR_API void fr_lighting_free(FrLighting *lighting);
+/// Tells that light will be asked for in a box of the world: suns and skies shine there too from
+/// the next fr_lighting_update() on, which itself does so for all that stands in the scene.
+FR_API void fr_lighting_widen(FrLighting *lighting, const FrScene *scene, const double min[3],
+                              const double max[3]);
+
 /// Lights the scene as it is now. Plants that are the same objects as before are not meshed anew;
 /// a changed plant must be a new one. Plants of the scene that are NULL are not there.
 FR_API FR_MUST_USE FrStatus fr_lighting_update(FrLighting *lighting, const FrScene *scene,

@@ -83,17 +83,9 @@ static void find_room(FrLighting *lighting, const FrScene *scene) {
 
 /// Widens what suns and skies shine on where plants have grown out of it.
 static void widen_room(FrLighting *lighting, const FrScene *scene) {
-    if (scene->params->sun_strength <= 0 && scene->params->sky_strength <= 0) {
-        return;
-    }
     double min[3], max[3];
     fr_scene_bounds(scene, min, max);
-    for (int axis = 0; axis < 3; axis++) {
-        float *low = &lighting->min.raw[axis], *high = &lighting->max.raw[axis];
-        double more = fmax(ROOM_TO_GROW, 0.5 * (double)(*high - *low));
-        *low = min[axis] < (double)*low ? (float)(min[axis] - more) : *low;
-        *high = max[axis] > (double)*high ? (float)(max[axis] + more) : *high;
-    }
+    fr_lighting_widen(lighting, scene, min, max);
 }
 
 static FrLight *new_views(const FrLightParams *params) {
@@ -241,6 +233,19 @@ static FrStatus set_scene(FrLighting *lighting, const FrScene *scene, const GArr
     g_free(mesh_of);
     g_free(stands);
     return status;
+}
+
+void fr_lighting_widen(FrLighting *lighting, const FrScene *scene, const double min[3],
+                       const double max[3]) {
+    if (scene->params->sun_strength <= 0 && scene->params->sky_strength <= 0) {
+        return;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        float *low = &lighting->min.raw[axis], *high = &lighting->max.raw[axis];
+        double more = fmax(ROOM_TO_GROW, 0.5 * (double)(*high - *low));
+        *low = min[axis] < (double)*low ? (float)(min[axis] - more) : *low;
+        *high = max[axis] > (double)*high ? (float)(max[axis] + more) : *high;
+    }
 }
 
 FrStatus fr_lighting_update(FrLighting *lighting, const FrScene *scene, const FrContext *context) {

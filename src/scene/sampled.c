@@ -51,6 +51,19 @@ void fr_sampled_add(FrSampled *sampled, FrScene *scene, const FrPlantDef *defini
     g_array_append_val(scene->stands, stands);
 }
 
+/// The sun shines where the plant will reach to, though it does not stand there yet.
+static void light_reach(const FrStand *stand, vec3s min, vec3s max, const FrScene *scene,
+                        FrLighting *lighting) {
+    vec3s far = glms_vec3_maxv(glms_vec3_abs(min), glms_vec3_abs(max));
+    double reach = (double)glms_vec3_norm(far) * stand->scale;
+    double low[3], high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = stand->at[axis] - reach;
+        high[axis] = stand->at[axis] + reach;
+    }
+    fr_lighting_widen(lighting, scene, low, high);
+}
+
 /// The directions to the light around the sprout, and what they cost.
 static FrStatus sample_light(const Sprout *sprout, const FrDocument *document, FrScene *scene,
                              FrLighting *lighting, const FrContext *context, FrLightField **field) {
@@ -71,10 +84,12 @@ static FrStatus sample_light(const Sprout *sprout, const FrDocument *document, F
     const double *at = sprout->stand.at;
     FrLightPlace place = {{at[0], at[1], at[2]}, sprout->stand.turn, sprout->stand.scale};
     double began = (double)g_get_monotonic_time() * 1e-6;
+    min = glms_vec3_subs(min, margin);
+    max = glms_vec3_adds(max, margin);
+    light_reach(&sprout->stand, min, max, scene, lighting);
     status = fr_lighting_update(lighting, scene, context);
     if (status == FR_OK) {
-        status = fr_lighting_field(lighting, &place, glms_vec3_subs(min, margin),
-                                   glms_vec3_adds(max, margin), CELLS, context, field);
+        status = fr_lighting_field(lighting, &place, min, max, CELLS, context, field);
         fr_lighting_forget(lighting);
     }
     scene->light_seconds += (double)g_get_monotonic_time() * 1e-6 - began;

@@ -62,6 +62,18 @@ static void test_told(void) {
     forget(&built);
 }
 
+/// The sun goes through the south, and a tall stem bends to it up to its tip as a small one does.
+static void test_tall(void) {
+    Built built = build("<frond version='1'><plant id='p'><pgraph><camera id='root'/>"
+                        "<world id='here' sampled='yes'/><horn id='stem' length='30' "
+                        "radius='0.01' phototropism='3'/><link from='root' to='here'/>"
+                        "<link from='here' to='stem'/></pgraph></plant><scene ground='no' "
+                        "sky-strength='0'><light by='density' photons='400000' distance='0.5'/>"
+                        "<place plant='p'/></scene></frond>");
+    g_assert_cmpfloat(tip_of(&built, 0).y, <, -0.3f);
+    forget(&built);
+}
+
 static void test_without_light(void) {
     Built built = build(DOCUMENT(""));
     g_assert_cmpuint(built.scene->plants->len, ==, 1);
@@ -73,6 +85,7 @@ int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/scene/sampled/stems are drawn to the lamp from where they stand", test_lamp);
     g_test_add_func("/scene/sampled/photons and time of the light are told", test_told);
+    g_test_add_func("/scene/sampled/a tall stem is drawn to the sun up to its tip", test_tall);
     g_test_add_func("/scene/sampled/without a light the formulas hold", test_without_light);
     return g_test_run();
 }
