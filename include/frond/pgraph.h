@@ -141,12 +141,15 @@ typedef struct FrGraft {
 /// What an expansion made. `by_component` has fr_pgraph_count() elements.
 typedef struct FrPgraphCounts {
     uint64_t instances;
-    uint64_t *by_component; ///< owned by the caller's FrPgraphCounts; free with g_free()
+    uint64_t *by_component; ///< owned, as all arrays here
     uint32_t *parent;       ///< i-tree: parent instance of each, FR_NONE for roots; only on request
     uint32_t *component;    ///< i-tree: component of each; only on request
     uint64_t *place;        ///< i-tree: for fr_pgraph_path(); only on request
-    uint8_t *edits; ///< by edit: 1 if it has a place; NULL without edits; free with g_free()
+    uint8_t *edits;         ///< by edit: 1 if it has a place; NULL without edits
 } FrPgraphCounts;
+
+/// Frees the arrays.
+FR_API void fr_pgraph_counts_clear(FrPgraphCounts *counts);
 
 /// Expands and builds. The number of instances, nodes and organs of each generation is counted
 /// and checked before it is made. `counts` may be NULL; set counts->parent to a non-NULL value to

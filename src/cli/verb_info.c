@@ -17,11 +17,7 @@ typedef struct Grown {
 
 static void clear_grown(Grown *grown) {
     fr_plant_free(grown->plant);
-    g_free(grown->counts.by_component);
-    g_free(grown->counts.parent);
-    g_free(grown->counts.component);
-    g_free(grown->counts.place);
-    g_free(grown->counts.edits);
+    fr_pgraph_counts_clear(&grown->counts);
     g_free(grown->chains);
 }
 

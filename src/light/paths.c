@@ -197,7 +197,9 @@ static FrStatus run(FrPaths *paths, Job *job, const FrContext *context) {
             status = reserve(paths, found[i]->len, context);
             if (status == FR_OK) {
                 store(paths, found[i], cuts);
-                cuts += cuts != NULL ? PHOTONS_AT_ONCE : 0;
+                if (cuts != NULL) {
+                    cuts += PHOTONS_AT_ONCE;
+                }
             }
         }
         fr_progress_report(context->progress, "light", (double)job->end / (double)count);

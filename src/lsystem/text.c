@@ -267,7 +267,8 @@ static void obey(Reader *reader, const Line *line, GArray *branches, const char 
 static void read_lines(Reader *reader, Line *line, GArray *branches, FrSource *source) {
     size_t size;
     const char *text = fr_source_text(source, &size);
-    for (size_t at = 0; at < size && !reader->macros.is_full;) {
+    bool has_mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0; // of UTF-8
+    for (size_t at = has_mark ? 3 : 0; at < size && !reader->macros.is_full;) {
         at = read_line(line, text, size, at);
         const char *begin = line->bytes->str;
         while (*begin == ' ' || *begin == '\t') {

@@ -201,10 +201,18 @@ void fr_pgraph_build_free(FrPgraphBuild *build) {
         fr_plant_free(build->plant);
         fr_unrolled_clear(&build->unrolled);
     }
-    g_free(build->counts.by_component);
-    g_free(build->counts.edits);
+    fr_pgraph_counts_clear(&build->counts);
     g_free(build->stages);
     g_free(build);
+}
+
+void fr_pgraph_counts_clear(FrPgraphCounts *counts) {
+    g_free(counts->by_component);
+    g_free(counts->parent);
+    g_free(counts->component);
+    g_free(counts->place);
+    g_free(counts->edits);
+    *counts = (FrPgraphCounts){0};
 }
 
 const FrPlant *fr_pgraph_build_plant(const FrPgraphBuild *build) {

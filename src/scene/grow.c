@@ -98,6 +98,6 @@ FrStatus fr_scene_grow_in_light(const FrDocument *document, const FrPlantDef *de
     FrPgraphCounts own = {0};
     FrStatus status = grow_pgraph(document, definition, seed, time, light, context, plant,
                                   counts == NULL ? &own : counts);
-    g_free(own.by_component);
+    fr_pgraph_counts_clear(&own);
     return status;
 }

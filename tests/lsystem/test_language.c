@@ -32,6 +32,15 @@ static void test_functions(void) {
     check_value("atan2(1,-1)", "135");
 }
 
+static void test_byte_order_mark(void) {
+    Derived d = begin("\xef\xbb\xbfLsystem: 1\nderivation length: 1\naxiom: A\n"
+                      "A --> AB\nendlsystem\n",
+                      1);
+    step(&d, 1);
+    check_now(&d, "AB");
+    end(&d);
+}
+
 static void test_division_by_zero(void) {
     Derived d = begin("Lsystem: 1\nderivation length: 1\naxiom: A(0)\n"
                       "A(x) --> B(5/x)\nendlsystem\n",
@@ -272,6 +281,7 @@ int main(int argc, char **argv) {
         void (*run)(void);
     } tests[] = {
         {"operators bind as in cpfg", test_precedence},
+        {"the mark of UTF-8 before a text is skipped", test_byte_order_mark},
         {"functions take degrees and trunc rounds", test_functions},
         {"division by zero divides by one and tells its place", test_division_by_zero},
         {"parameters are kept in single precision", test_single_precision},

@@ -118,11 +118,7 @@ static inline void built_free(Built built) {
     fr_plant_free(built.plant);
     fr_pgraph_free(built.graph);
     fr_diags_free(built.diags);
-    g_free(built.counts.by_component);
-    g_free(built.counts.parent);
-    g_free(built.counts.component);
-    g_free(built.counts.place);
-    g_free(built.counts.edits);
+    fr_pgraph_counts_clear(&built.counts);
 }
 
 static inline uint64_t built_count(const Built *built, const char *id) {

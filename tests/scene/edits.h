@@ -70,7 +70,7 @@ static inline FrPgraph *small_graph(const Shipped *shipped) {
         if (fr_pgraph_build(graph, &context, &plant, &counts) == FR_OK) {
             instances = counts.instances;
         }
-        g_free(counts.by_component);
+        fr_pgraph_counts_clear(&counts);
         fr_plant_free(plant);
     }
     return graph;

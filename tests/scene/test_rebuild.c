@@ -83,7 +83,7 @@ static FrPgraphBuild *rebuild(const FrPgraph *graph, const FrPgraphBuild *last, 
         g_assert_cmpuint(fr_pgraph_build_counts(build)->instances, ==, counts.instances);
     }
     fr_plant_free(fresh);
-    g_free(counts.by_component);
+    fr_pgraph_counts_clear(&counts);
     g_free(text);
     g_free(fresh_text);
     fr_diags_free(said);
