@@ -53,6 +53,8 @@ typedef struct FrSkeleton FrSkeleton;
 /// Copies the parameters.
 FR_API FrSkeleton *fr_skeleton_new(const FrSkeletonParams *params);
 FR_API void fr_skeleton_free(FrSkeleton *skeleton);
+/// The file it is read from, NULL for a text within the document.
+FR_API const char *fr_skeleton_file(const FrSkeleton *skeleton);
 /// The material of its axes; NULL: none. Takes a reference.
 FR_API void fr_skeleton_set_material(FrSkeleton *skeleton, FrMaterial *material);
 /// Reads `text`, or the file of the parameters if that is NULL, relative to `folder`. `span` is

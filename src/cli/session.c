@@ -103,18 +103,71 @@ bool cli_check_spared(const CliOptions *options, const char *input) {
     return true;
 }
 
+/// Whether no output would overwrite a file that a document names; NULL or "" names none.
+static bool is_spared(const CliOptions *options, const FrDocument *document, const char *file) {
+    if (file == NULL || *file == '\0') {
+        return true;
+    }
+    char *path = g_path_is_absolute(file)
+                     ? g_strdup(file)
+                     : g_build_filename(fr_document_folder(document), file, NULL);
+    bool is_spared = cli_check_spared(options, path);
+    g_free(path);
+    return is_spared;
+}
+
+/// The files that a component reads are what its parameters call so.
+static bool check_component_spared(const CliOptions *options, const FrDocument *document,
+                                   FrPgraph *graph, uint32_t component) {
+    const FrParamTable *table = fr_pgraph_table(fr_pgraph_kind(graph, component));
+    const char *params = fr_pgraph_params(graph, component);
+    for (size_t r = 0; r < table->count; r++) {
+        const FrParam *row = &table->rows[r];
+        if (row->kind == FR_PARAM_TEXT && g_str_has_suffix(row->name, "file")) {
+            const char *file;
+            memcpy(&file, params + row->offset, sizeof file);
+            if (!is_spared(options, document, file)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// What the plants of a document are read from is not overwritten either.
+static bool check_plants_spared(const CliOptions *options, const FrDocument *document) {
+    const GPtrArray *plants = fr_document_plants(document);
+    for (guint i = 0; i < plants->len; i++) {
+        const FrPlantDef *plant = g_ptr_array_index(plants, i);
+        if (plant->lsystem != NULL) {
+            const FrLsystemParams *params = fr_lmodel_params(plant->lsystem);
+            if (!is_spared(options, document, params->file) ||
+                !is_spared(options, document, params->view)) {
+                return false;
+            }
+        }
+        if (plant->skeleton != NULL &&
+            !is_spared(options, document, fr_skeleton_file(plant->skeleton))) {
+            return false;
+        }
+        for (uint32_t c = 0; c < fr_pgraph_count(plant->pgraph); c++) {
+            if (!check_component_spared(options, document, plant->pgraph, c)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 /// The user's own pictures are not overwritten either.
 static bool check_pictures_spared(const CliOptions *options, const FrDocument *document) {
-    const char *folder = fr_document_folder(document);
     const GPtrArray *materials = fr_document_materials(document);
     bool are_spared = true;
     for (guint i = 0; i < materials->len && are_spared; i++) {
         const FrMaterialParams *params = fr_material_params(g_ptr_array_index(materials, i));
         const char *files[] = {params->picture, params->normal_map, params->roughness_map};
         for (size_t k = 0; k < G_N_ELEMENTS(files) && are_spared; k++) {
-            char *path = files[k] == NULL ? NULL : g_build_filename(folder, files[k], NULL);
-            are_spared = path == NULL || *files[k] == '\0' || cli_check_spared(options, path);
-            g_free(path);
+            are_spared = is_spared(options, document, files[k]);
         }
     }
     return are_spared;
@@ -137,7 +190,8 @@ FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **do
     if (status == FR_OK) {
         status = cli_lsystem_apply(session, *document);
     }
-    if (status == FR_OK && !check_pictures_spared(session->options, *document)) {
+    if (status == FR_OK && !(check_pictures_spared(session->options, *document) &&
+                             check_plants_spared(session->options, *document))) {
         status = FR_ERR_USAGE;
     }
     if (status != FR_OK) {

@@ -68,7 +68,7 @@ static void draw(double point[2], FrStrewnForm form, double inner, FrKey key, ui
 }
 
 void fr_bluenoise(double (*points)[2], uint32_t count, FrStrewnForm form, double inner,
-                  uint32_t candidates, FrKey key) {
+                  uint32_t candidates, FrKey key, const FrProgress *progress) {
     uint32_t side = (uint32_t)CLAMP(sqrt(count), 1, MOST_CELLS);
     Grid grid = {
         .points = (const double(*)[2])points,
@@ -80,6 +80,7 @@ void fr_bluenoise(double (*points)[2], uint32_t count, FrStrewnForm form, double
         grid.first[cell] = NO_POINT;
     }
     for (uint32_t i = 0; i < count; i++) {
+        candidates = i % 256 == 0 && fr_progress_is_cancelled(progress) ? 1 : candidates;
         FrKey own = fr_key_child(key, i);
         double best = -1;
         for (uint32_t c = 0; c < candidates; c++) {

@@ -6,12 +6,14 @@
 /// first points do not depend on how many follow.
 #pragma once
 
+#include "frond/progress.h"
 #include "frond/random.h"
 
 typedef enum FrStrewnForm { FR_STREWN_DISC, FR_STREWN_SQUARE, FR_STREWN_RING } FrStrewnForm;
 
 /// Fills `points` with `count` points of a disc or ring of radius 1 or the square from −1 to 1.
 /// `inner` is the radius of a ring's hole; `candidates` ≥ 1, of which 1 leaves all to chance.
+/// Once `progress` (may be NULL) is cancelled they are left to chance: nobody will see them.
 /// Cost: count · candidates · log(count).
 void fr_bluenoise(double (*points)[2], uint32_t count, FrStrewnForm form, double inner,
-                  uint32_t candidates, FrKey key);
+                  uint32_t candidates, FrKey key, const FrProgress *progress);

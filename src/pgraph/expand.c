@@ -539,8 +539,10 @@ FrStatus fr_pgraph_build(const FrPgraph *graph, const FrContext *context, FrPlan
 FrStatus fr_pgraph_build_grafted(const FrPgraph *graph, const FrGraft *graft,
                                  const FrContext *context, FrPlant **plant,
                                  FrPgraphCounts *counts) {
-    FrBuild build = {
-        .context = context, .counts = counts, .graft = graft, .expansion = {.graph = graph}};
+    FrBuild build = {.context = context,
+                     .counts = counts,
+                     .graft = graft,
+                     .expansion = {.graph = graph, .progress = context->progress}};
     build.expansion.light = graft != NULL ? graft->light : NULL;
     FrUnrolled unrolled = {0};
     FrStatus status = run(&build, &unrolled);
@@ -561,7 +563,7 @@ FrStatus fr_pgraph_rebuild(const FrPgraph *graph, const FrPgraphBuild *last,
                      .counts = &kept->counts,
                      .made = kept,
                      .last = last != NULL && !last->is_cut ? last : NULL,
-                     .expansion = {.graph = graph}};
+                     .expansion = {.graph = graph, .progress = context->progress}};
     FrStatus status = run(&build, &kept->unrolled);
     *made = status == FR_OK ? kept : NULL;
     if (status != FR_OK) {

@@ -14,7 +14,8 @@ typedef struct FrExpansion {
     const FrPrepared *prepared; ///< of each component
     FrPlant *plant;
     FrLevel level, next;
-    GHashTable **faults;  ///< of each worker
+    GHashTable **faults;        ///< of each worker
+    const FrProgress *progress; ///< once cancelled, what is made need not be good; NULL
     FrShape *blades;      ///< of this level's organs, for shapes to be found after the loop; NULL
     uint32_t first_organ; ///< of this level
     GArray *fields;       ///< FrField

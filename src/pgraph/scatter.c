@@ -85,7 +85,7 @@ static void write_child(FrSpread *spread, const FrScatterParams *params, uint32_
 static void strew_mesh(FrSpread *spread, const FrScatterParams *params, const FrStrewnSurface *mesh,
                        uint32_t candidates, FrKey key) {
     FrStrewnPoint *points = g_new(FrStrewnPoint, spread->count);
-    fr_strew(mesh, points, spread->count, candidates, key);
+    fr_strew(mesh, points, spread->count, candidates, key, spread->expansion->progress);
     versors upright = to_upright(spread, 1);
     for (uint32_t i = 0; i < spread->count; i++) {
         if (fr_spread_wants(spread, i)) {
@@ -109,7 +109,8 @@ static void strew_plane(FrSpread *spread, const FrScatterParams *params, uint32_
     double widest = params->surface == FR_SCATTER_RING ? fmax(radius, inner) : radius;
     double(*points)[2] = g_malloc_n(spread->count, sizeof *points);
     fr_bluenoise(points, spread->count, (FrStrewnForm)params->surface,
-                 widest > 0 ? fmin(radius, inner) / widest : 0, candidates, key);
+                 widest > 0 ? fmin(radius, inner) / widest : 0, candidates, key,
+                 spread->expansion->progress);
     versors upright = to_upright(spread, 1 - params->align);
     for (uint32_t i = 0; i < spread->count; i++) {
         if (fr_spread_wants(spread, i)) {

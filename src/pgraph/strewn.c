@@ -209,9 +209,10 @@ static Grid grid_new(const FrMeshFile *file, const FrStrewnPoint *points, uint32
 }
 
 void fr_strew(const FrStrewnSurface *surface, FrStrewnPoint *points, uint32_t count,
-              uint32_t candidates, FrKey key) {
+              uint32_t candidates, FrKey key, const FrProgress *progress) {
     Grid grid = grid_new(surface->file, points, count);
     for (uint32_t i = 0; i < count; i++) {
+        candidates = i % 256 == 0 && fr_progress_is_cancelled(progress) ? 1 : candidates;
         double best = -1;
         for (uint32_t c = 0; c < candidates; c++) {
             FrStrewnPoint point;

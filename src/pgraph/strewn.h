@@ -27,6 +27,6 @@ typedef struct FrStrewnPoint {
 
 /// Strews `count` points, each the farthest from those before it among `candidates`. Where hardly
 /// anything is between the heights, or the map is dark, some stand outside. The surface has an
-/// area.
+/// area. Once `progress` (may be NULL) is cancelled they are left to chance: nobody will see them.
 void fr_strew(const FrStrewnSurface *surface, FrStrewnPoint *points, uint32_t count,
-              uint32_t candidates, FrKey key);
+              uint32_t candidates, FrKey key, const FrProgress *progress);

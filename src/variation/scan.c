@@ -42,6 +42,10 @@ void fr_skeleton_free(FrSkeleton *skeleton) {
     }
 }
 
+const char *fr_skeleton_file(const FrSkeleton *skeleton) {
+    return skeleton->params.file;
+}
+
 void fr_skeleton_set_material(FrSkeleton *skeleton, FrMaterial *material) {
     skeleton->material = material == NULL ? NULL : fr_material_ref(material);
 }

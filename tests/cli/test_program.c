@@ -233,11 +233,18 @@ static void test_inputs_are_spared(void) {
     char *previous;
     char *folder = enter_folder(&previous);
     const char *document = "<frond version='1'><material id='m' picture='leaf.png'/><plant id='p'>"
-                           "<pgraph><horn id='h' material='m'/></pgraph></plant></frond>";
+                           "<pgraph><simple id='h' material='m' primitive='mesh' file='x.stl'/>"
+                           "</pgraph></plant><plant id='q'><skeleton file='q.ply'/></plant>"
+                           "</frond>";
     g_assert_true(g_file_set_contents("a.frond", document, -1, NULL));
     g_assert_true(g_file_set_contents("leaf.png", "a picture", -1, NULL));
+    g_assert_true(g_file_set_contents("x.stl", "triangles", -1, NULL));
+    g_assert_true(g_file_set_contents("q.ply", "0 0 0 0 0 1 0.1", -1, NULL));
     g_assert_cmpint(symlink("a.frond", "a.glb"), ==, 0);
-    const char *writing[] = {"build a.frond --stats a.frond", "build a.frond -o b.glb -o a.glb",
+    const char *writing[] = {"build a.frond --stats a.frond",
+                             "build a.frond -o b.glb -o a.glb",
+                             "build a.frond -o x.stl",
+                             "build a.frond -o b.glb -o q.ply",
                              "render ./a.frond -o ../$F/leaf.png",
                              "build a.frond --stats leaf.png"};
     for (size_t i = 0; i < G_N_ELEMENTS(writing); i++) {
