@@ -1,6 +1,7 @@
 /// Varied plants in documents: read, placed, collected.
 #include "frond/scene.h"
 
+#include <cglm/struct.h>
 #include <math.h>
 #include <string.h>
 
@@ -158,8 +159,45 @@ static void unknown_branch(void) {
     fr_document_free(document);
 }
 
+/// Mean distance of the same joints over the height.
+static double difference(const FrPlant *one, const FrPlant *other, double height) {
+    double sum = 0;
+    for (uint32_t i = 0; i < one->nodes.count; i++) {
+        sum += (double)glms_vec3_distance(one->nodes.position[i], other->nodes.position[i]);
+    }
+    return sum / one->nodes.count / height;
+}
+
+/// Seven instances of the example differ enough to tell them apart, and are still one kind.
+static void a_collection_of_one_kind(void) {
+    char *path = g_build_filename(g_getenv("FROND_SOURCE"), "examples", "collection.frond", NULL);
+    FrContext context = fr_context_default();
+    FrDocument *document;
+    g_assert_cmpint(fr_document_load(path, &context, &document), ==, FR_OK);
+    const FrPlantDef *drawn = g_ptr_array_index(fr_document_plants(document), 1);
+    FrScene *all;
+    g_assert_cmpint(fr_scene_collect(document, drawn, 1, NAN, 7, &context, &all), ==, FR_OK);
+    vec3s min, max;
+    fr_plant_bounds(plant_at(all, 0), &min, &max);
+    FrDigest topology = fr_vary_topology_digest(plant_at(all, 0));
+    for (guint i = 0; i < 7; i++) {
+        g_assert_cmpuint(fr_vary_topology_digest(plant_at(all, i)), ==, topology);
+        for (guint j = 0; j < i; j++) {
+            double apart = difference(plant_at(all, i), plant_at(all, j), (double)(max.z - min.z));
+            g_test_message("%u and %u differ by %.1f %%", i, j, 100 * apart);
+            g_assert_cmpfloat(apart, >=, 0.02);
+            g_assert_cmpfloat(apart, <=, 0.15);
+        }
+    }
+    fr_scene_free(all);
+    fr_document_free(document);
+    g_free(path);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/scene/varied/seven of a collection differ and are of one kind",
+                    a_collection_of_one_kind);
     g_test_add_func("/scene/varied/instances stand beside their base", places);
     g_test_add_func("/scene/varied/another seed is another instance of the same base",
                     another_seed);
