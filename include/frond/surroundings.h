@@ -5,14 +5,17 @@
 
 #include "frond/light_density.h"
 #include "frond/material.h"
+#include "frond/mesh_file.h"
 #include "frond/param.h"
 
 /// An `<obstacle>`: something that stands in the way of light.
 #define FR_OBSTACLE_PARAMS(X)                                                                      \
-    X(CHOICE, shape, "box", 0, 0, "", "box sphere cylinder cone square circle",                    \
-      "its form; square and circle are flat and stand, facing y")                                  \
+    X(CHOICE, shape, "box", 0, 0, "", "box sphere cylinder cone square circle mesh",               \
+      "its form; square and circle are flat and stand, facing y; a mesh is read from `file`")      \
     X(VECTOR, at, "0, 0, 0", -1000000, 1000000, "m", "", "the middle of its base")                 \
-    X(VECTOR, size, "1, 1, 1", 0.0001, 1000000, "m", "", "extent along x, y and z")                \
+    X(VECTOR, size, "1, 1, 1", 0.0001, 1000000, "m", "",                                           \
+      "extent along x, y and z; of a mesh the factors of its own size")                            \
+    X(TEXT, file, "", 0, 0, "", "", "file of triangles for shape=mesh")                            \
     X(REAL, tilt, "0", -360, 360, "deg", "", "turned about the x axis first …")                    \
     X(REAL, turn, "0", -360000, 360000, "deg", "", "… and then about the vertical")                \
     X(TEXT, material, "", 0, 0, "", "", "id of its material; empty: grey")
@@ -57,9 +60,12 @@
 enum { FR_LIGHT_BY_VIEWS, FR_LIGHT_BY_DENSITY, FR_LIGHT_BY_SHADOWS };
 enum { FR_LIGHT_TOWARDS_BRIGHTEST, FR_LIGHT_TOWARDS_MEAN };
 
+enum { FR_OBSTACLE_MESH = 6 };
+
 typedef struct FrObstacle {
     FR_OBSTACLE_PARAMS(FR_PARAM_FIELD)
-    FrMaterial *made_of; ///< borrowed from the document; NULL: grey
+    FrMaterial *made_of; ///< borrowed from the document; NULL: grey, or what the file says
+    FrMeshFile *mesh;    ///< of FR_OBSTACLE_MESH, owned; else NULL
     FrSpan span;
 } FrObstacle;
 typedef struct FrLampParams {

@@ -159,6 +159,17 @@ static bool check_plants_spared(const CliOptions *options, const FrDocument *doc
     return true;
 }
 
+static bool check_obstacles_spared(const CliOptions *options, const FrDocument *document) {
+    const GPtrArray *obstacles = fr_document_surroundings(document)->obstacles;
+    for (guint i = 0; i < obstacles->len; i++) {
+        const FrObstacle *obstacle = g_ptr_array_index(obstacles, i);
+        if (!is_spared(options, document, obstacle->file)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// The user's own pictures are not overwritten either.
 static bool check_pictures_spared(const CliOptions *options, const FrDocument *document) {
     const GPtrArray *materials = fr_document_materials(document);
@@ -191,7 +202,8 @@ FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **do
         status = cli_lsystem_apply(session, *document);
     }
     if (status == FR_OK && !(check_pictures_spared(session->options, *document) &&
-                             check_plants_spared(session->options, *document))) {
+                             check_plants_spared(session->options, *document) &&
+                             check_obstacles_spared(session->options, *document))) {
         status = FR_ERR_USAGE;
     }
     if (status != FR_OK) {

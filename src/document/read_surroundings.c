@@ -4,6 +4,19 @@
 
 #include <math.h>
 
+static void read_obstacle_mesh(FrReader *reader, uint32_t node, FrObstacle *obstacle) {
+    if (obstacle->file == NULL) {
+        fr_read_error(reader, "missing-attribute", reader->tree->nodes[node].name,
+                      "an <obstacle> with shape='mesh' needs a 'file'");
+        return;
+    }
+    FrStatus status = FR_OK;
+    FrSpan span = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "file"));
+    obstacle->mesh =
+        fr_mesh_file_load(reader->document->folder, obstacle->file, span, reader->context, &status);
+    fr_read_note(reader, status);
+}
+
 static void read_obstacle(FrReader *reader, uint32_t node) {
     fr_read_check_children(reader, node, FR_ELEMENT_OBSTACLE);
     FrObstacle *obstacle = g_new0(FrObstacle, 1);
@@ -11,6 +24,9 @@ static void read_obstacle(FrReader *reader, uint32_t node) {
     obstacle->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
     fr_read_attributes(reader, node, FR_ELEMENT_OBSTACLE, obstacle);
     obstacle->made_of = fr_read_material(reader, node, "material", obstacle->material);
+    if (obstacle->shape == FR_OBSTACLE_MESH) {
+        read_obstacle_mesh(reader, node, obstacle);
+    }
     g_ptr_array_add(reader->document->surroundings.obstacles, obstacle);
 }
 
@@ -94,6 +110,7 @@ void fr_read_surroundings(FrReader *reader, uint32_t scene) {
 }
 
 static void free_obstacle(void *obstacle) {
+    fr_mesh_file_unref(((FrObstacle *)obstacle)->mesh);
     fr_params_clear(fr_obstacle_table(), obstacle);
     g_free(obstacle);
 }

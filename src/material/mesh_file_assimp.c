@@ -275,6 +275,8 @@ FrMeshFile *fr_mesh_file_import(const char *path, const char *name, FrSpan span,
         .UserData = (aiUserData)(void *)&folder,
     };
     struct aiPropertyStore *settings = aiCreatePropertyStore();
+    // Where a file has no normals, edges sharper than this stay sharp.
+    aiSetImportPropertyFloat(settings, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, 50.0F);
     aiSetImportPropertyInteger(settings, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const struct aiScene *scene = aiImportFileExWithProperties(

@@ -46,6 +46,9 @@ static void assert_wrong(const char *text, const char *code) {
 static void test_wrong(void) {
     assert_wrong(SCENE("<obstacle material='wod'/>"), "unknown-material");
     assert_wrong(SCENE("<obstacle size='0'/>"), "out-of-range");
+    assert_wrong(SCENE("<obstacle shape='mesh'/>"), "missing-attribute");
+    assert_wrong(SCENE("<obstacle shape='mesh' file='none.obj'/>"), "missing-file");
+    assert_wrong(SCENE("<obstacle shape='mesh' file='../out.obj'/>"), "wrong-path");
     assert_wrong(SCENE("<lamp direction='0'/>"), "no-direction");
     assert_wrong(SCENE("<sun date='2025-02-30'/>"), "bad-date");
     assert_wrong(SCENE("<sun date='25-2-3'/>"), "bad-date");

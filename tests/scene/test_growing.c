@@ -2,6 +2,7 @@
 #include "frond/scene.h"
 
 #include <cglm/struct.h>
+#include <glib/gstdio.h>
 #include <math.h>
 #include <string.h>
 
@@ -123,6 +124,27 @@ static void test_shade(void) {
     forget(&built);
 }
 
+/// A plate read from a file shades as the same plate made of a box does.
+static void test_mesh_shade(void) {
+    char *previous = g_get_current_dir(), *folder = g_dir_make_tmp("frond-XXXXXX", NULL);
+    g_assert_cmpint(g_chdir(folder), ==, 0);
+    const char *plate = "v -20 0 -10\nv 20 0 -10\nv 20 0 10\nv -20 0 10\nf 1 4 3 2\n";
+    g_assert_true(g_file_set_contents("plate.obj", plate, -1, NULL));
+    Built built = build(DOCUMENT(SHADE, "<light near='0.01' relative='yes' reference='0, 0, 1'/>"
+                                        "<lamp at='0, 0, 50' power='1000'/>"
+                                        "<obstacle shape='mesh' file='plate.obj' at='32, 0, 20'/>"
+                                        "<place plant='p'/><place plant='p' at='40, 0, 0'/>"));
+    g_assert_cmpuint(plant_at(&built, 0)->organs.count, ==, 1);
+    g_assert_cmpuint(plant_at(&built, 1)->organs.count, ==, 0);
+    g_assert_cmpuint(plant_at(&built, 1)->nodes.count, ==, 6);
+    forget(&built);
+    g_assert_cmpint(g_unlink("plate.obj"), ==, 0);
+    g_assert_cmpint(g_chdir(previous), ==, 0);
+    g_assert_cmpint(g_rmdir(folder), ==, 0);
+    g_free(folder);
+    g_free(previous);
+}
+
 /// A plant shades the one below it from the step on in which it spreads over it.
 static void test_neighbours(void) {
     Built built =
@@ -195,6 +217,7 @@ static void test_without_light(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/scene/growing/a mesh from a file shades", test_mesh_shade);
     g_test_add_func("/scene/growing/a branch bends to the lamp, by so much a step", test_bending);
     g_test_add_func("/scene/growing/the sun shines on plants however tall they grow", test_tall);
     g_test_add_func("/scene/growing/turned and scaled plants lean to the same lamp", test_stands);
