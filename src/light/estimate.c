@@ -112,7 +112,7 @@ typedef struct Bundle {
 } Bundle;
 
 static Bundle new_bundle(uint32_t most) {
-    Bundle bundle = {.memory = g_malloc_n(most, 8 * sizeof(float) + 3 * sizeof(int32_t))};
+    Bundle bundle = {.memory = g_malloc_n(MAX(most, 1), 8 * sizeof(float) + 3 * sizeof(int32_t))};
     float *next = bundle.memory;
     for (int c = 0; c < 3; c++, next += 2 * (size_t)most) {
         bundle.at[c] = next;

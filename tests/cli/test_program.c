@@ -294,7 +294,9 @@ static void test_new(void) {
     Run did = run("presets");
     g_assert_cmpint(did.exit, ==, 4);
     clear(&did);
-    g_unsetenv("FROND_DATA");
+    char *data = g_build_filename(g_getenv("FROND_SOURCE"), "data", NULL);
+    g_setenv("FROND_DATA", data, TRUE);
+    g_free(data);
     // Without a species a young tree, from the presets of the program itself.
     did = run("new young");
     expect(&did, &(Command){"new young", 0, "young.frond\n", ""});

@@ -13,6 +13,7 @@ import traceback
 
 PROGRAM = os.environ["FROND_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["FROND_SOURCE"])
+os.environ.setdefault("FROND_DATA", str(SOURCE / "data"))  # the build may be anywhere
 EXAMPLES = sorted((SOURCE / "examples").glob("*.frond"))
 
 
