@@ -7,13 +7,15 @@
 // time.
 #include "plant/frames.h"
 
+#include "math/lanes.h"
+
 #include <string.h>
 
 // Rows asked for ahead are so many behind those at work, and asked for in every so many steps: a
 // line of a cache holds four rotations.
-enum { FR_LANES = 4, AHEAD = 100, STEPS_PER_LINE = 4 };
+enum { ABREAST = 4, AHEAD = 100, STEPS_PER_LINE = 4 };
 
-typedef float Lanes __attribute__((vector_size(16)));
+typedef FrRow Lanes;
 
 /// Nodes begin … end−1 follow each other on one axis.
 typedef struct Run {
@@ -25,17 +27,6 @@ typedef struct Abreast {
     Lanes q[4];
     Lanes tip[3];
 } Abreast;
-
-static void transpose(Lanes row[4]) {
-    Lanes a = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
-    Lanes b = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
-    Lanes c = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
-    Lanes d = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-    row[0] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
-    row[1] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
-    row[2] = __builtin_shufflevector(c, d, 0, 1, 4, 5);
-    row[3] = __builtin_shufflevector(c, d, 2, 3, 6, 7);
-}
 
 /// The next node of each lane: fr_frame_step() and fr_advanced() on vectors.
 static void step(Abreast *s, const Lanes l[4], Lanes length) {
@@ -59,9 +50,9 @@ static void step(Abreast *s, const Lanes l[4], Lanes length) {
 static void store(FrNodes *nodes, const Abreast *state, const Run *run, uint32_t steps) {
     Lanes frame[4] = {state->q[0], state->q[1], state->q[2], state->q[3]};
     Lanes tip[4] = {state->tip[0], state->tip[1], state->tip[2], state->tip[2]};
-    transpose(frame);
-    transpose(tip);
-    for (int k = 0; k < FR_LANES; k++) {
+    fr_rows_transpose(frame);
+    fr_rows_transpose(tip);
+    for (int k = 0; k < ABREAST; k++) {
         uint32_t node = run[k].begin + steps;
         if (node < run[k].end) {
             memcpy(&nodes->frame[node], &frame[k], sizeof(versors));
@@ -74,12 +65,12 @@ static void store(FrNodes *nodes, const Abreast *state, const Run *run, uint32_t
 static void start(Abreast *state, const FrNodes *nodes, const Run *run) {
     Lanes frame[4];
     Lanes tip[4] = {0};
-    for (int k = 0; k < FR_LANES; k++) {
+    for (int k = 0; k < ABREAST; k++) {
         memcpy(&frame[k], &nodes->frame[run[k].begin], sizeof(versors));
         memcpy(&tip[k], &nodes->position[run[k].begin], sizeof(vec3s));
     }
-    transpose(frame);
-    transpose(tip);
+    fr_rows_transpose(frame);
+    fr_rows_transpose(tip);
     memcpy(state->q, frame, sizeof state->q);
     memcpy(state->tip, tip, sizeof state->tip);
 }
@@ -88,7 +79,7 @@ static void start(Abreast *state, const FrNodes *nodes, const Run *run) {
 static inline void advance(Abreast *state, FrNodes *nodes, const Run *run, uint32_t steps) {
     Lanes rotation[4];
     Lanes length;
-    for (int k = 0; k < FR_LANES; k++) {
+    for (int k = 0; k < ABREAST; k++) {
         // A lane past its end works on its last node once more; that is not stored.
         uint32_t from = MIN(run[k].begin + steps, run[k].end - 1);
         memcpy(&rotation[k], &nodes->rotation[from], sizeof(versors));
@@ -100,16 +91,16 @@ static inline void advance(Abreast *state, FrNodes *nodes, const Run *run, uint3
             __builtin_prefetch(&nodes->position[later], 1);
         }
     }
-    transpose(rotation);
+    fr_rows_transpose(rotation);
     step(state, rotation, length);
     store(nodes, state, run, steps);
 }
 
 /// The length of the second longest run: until there at least two lanes have work.
-static uint32_t second_length(const Run run[FR_LANES]) {
+static uint32_t second_length(const Run run[ABREAST]) {
     uint32_t longest = 0;
     uint32_t second = 0;
-    for (int k = 0; k < FR_LANES; k++) {
+    for (int k = 0; k < ABREAST; k++) {
         uint32_t length = run[k].end - run[k].begin;
         second = MAX(second, MIN(length, longest));
         longest = MAX(longest, length);
@@ -118,9 +109,9 @@ static uint32_t second_length(const Run run[FR_LANES]) {
 }
 
 /// Four runs whose bearers are done.
-static void walk_abreast(FrPlant *plant, const Run run[FR_LANES]) {
+static void walk_abreast(FrPlant *plant, const Run run[ABREAST]) {
     FrNodes *nodes = &plant->nodes;
-    for (int k = 0; k < FR_LANES; k++) {
+    for (int k = 0; k < ABREAST; k++) {
         fr_update_frame(nodes, &plant->axes, run[k].begin);
     }
     Abreast state;
@@ -129,7 +120,7 @@ static void walk_abreast(FrPlant *plant, const Run run[FR_LANES]) {
     for (uint32_t s = 1; s < steps; s++) {
         advance(&state, nodes, run, s);
     }
-    for (int k = 0; k < FR_LANES; k++) {
+    for (int k = 0; k < ABREAST; k++) {
         for (uint32_t i = run[k].begin + steps; i < run[k].end; i++) {
             fr_update_frame(nodes, &plant->axes, i);
         }
@@ -146,7 +137,7 @@ static Run run_from(const FrNodes *nodes, uint32_t begin) {
 
 void fr_plant_update_frames(FrPlant *plant, uint32_t first) {
     FrNodes *nodes = &plant->nodes;
-    Run run[FR_LANES];
+    Run run[ABREAST];
     int count = 0;
     for (uint32_t i = first; i < nodes->count;) {
         Run next = run_from(nodes, i);
@@ -160,7 +151,7 @@ void fr_plant_update_frames(FrPlant *plant, uint32_t first) {
         }
         run[count++] = next;
         i = next.end;
-        if (count == FR_LANES) {
+        if (count == ABREAST) {
             walk_abreast(plant, run);
             count = 0;
         }
