@@ -11,10 +11,6 @@
 #include "pgraph/edit.h"
 #include "pgraph/global.h"
 #include "pgraph/kept.h"
-#include "pgraph/ramp.h"
-
-#include <math.h>
-#include <string.h>
 
 enum { GRAIN = 256 };
 
@@ -170,63 +166,6 @@ static bool needs_blades(const FrExpansion *expansion) {
     return false;
 }
 
-// The i-tree's rows of the level, which begin at `first`: of what is there.
-static void record_tree(FrBuild *build, uint64_t first) {
-    const FrLevel *level = &build->expansion.level;
-    FrPgraphCounts *counts = build->counts;
-    counts->parent = g_renew(uint32_t, counts->parent, build->instances);
-    counts->component = g_renew(uint32_t, counts->component, build->instances);
-    counts->place = g_renew(uint64_t, counts->place, build->instances);
-    uint32_t *numbers = g_new(uint32_t, MAX(level->count, 1));
-    for (uint32_t row = 0; row < level->count; row++) {
-        if (level->is_absent[row]) {
-            continue;
-        }
-        uint32_t parent = level->parent[row];
-        counts->parent[first] = parent != FR_NONE ? build->numbers[parent] : FR_NONE;
-        counts->component[first] = fr_instance_stage(&build->expansion, row)->component;
-        counts->place[first] = build->expansion.places != NULL ? build->expansion.places[row] : 0;
-        numbers[row] = (uint32_t)first++;
-    }
-    g_free(build->numbers);
-    build->numbers = numbers;
-}
-
-// Which edits have a place. What is not there has one if it was pruned.
-static void note_edits(FrBuild *build) {
-    const FrExpansion *expansion = &build->expansion;
-    const FrLevel *level = &expansion->level;
-    for (uint32_t row = 0; row < level->count && expansion->edits != NULL; row++) {
-        FrEditState state = level->edit[row];
-        uint32_t edit = state != FR_EDIT_NOWHERE ? fr_edits_at(expansion->edits, state) : FR_NONE;
-        if (edit != FR_NONE) {
-            build->has_place[edit] |= level->clock[row] >= 0;
-        }
-    }
-}
-
-static void record_level(FrBuild *build) {
-    const FrLevel *level = &build->expansion.level;
-    uint64_t first = build->instances;
-    for (uint32_t row = 0; row < level->count; row++) {
-        build->instances += !level->is_absent[row];
-        build->taken_over += !level->is_absent[row] && level->twin[row] != FR_NONE;
-    }
-    note_edits(build);
-    FrPgraphCounts *counts = build->counts;
-    if (counts == NULL) {
-        return;
-    }
-    counts->instances = build->instances;
-    for (uint32_t row = 0; row < level->count; row++) {
-        counts->by_component[fr_instance_stage(&build->expansion, row)->component] +=
-            !level->is_absent[row];
-    }
-    if (counts->parent != NULL) {
-        record_tree(build, first);
-    }
-}
-
 static FrStatus expand_level(FrBuild *build) {
     FrExpansion *expansion = &build->expansion;
     const FrContext *context = build->context;
@@ -238,7 +177,7 @@ static FrStatus expand_level(FrBuild *build) {
     if (fr_progress_is_cancelled(context->progress)) {
         return FR_CANCELLED;
     }
-    record_level(build);
+    fr_build_record_level(build);
     FrLevelSums sums = fr_level_sum(expansion);
     status = fr_build_check_level(build, &sums);
     if (status != FR_OK) {
@@ -259,7 +198,7 @@ static FrStatus expand_level(FrBuild *build) {
     return status == FR_OK ? check_scopes(build) : status;
 }
 
-// ---- the whole --------------------------------------------------------------------------------
+// ---- all levels -------------------------------------------------------------------------------
 
 static void begin_level(FrBuild *build) {
     FrExpansion *expansion = &build->expansion;
@@ -301,64 +240,6 @@ static void begin_level(FrBuild *build) {
     fr_twins_of_roots(expansion);
 }
 
-static gint compare_faults(gconstpointer a, gconstpointer b) {
-    const FrValueFault *p = *(FrValueFault *const *)a;
-    const FrValueFault *q = *(FrValueFault *const *)b;
-    if (p->instance != q->instance) {
-        return p->instance < q->instance ? -1 : 1;
-    }
-    return p->parameter < q->parameter ? -1 : p->parameter > q->parameter;
-}
-
-/// What a parameter is called in documents; behind those of the table come what a graft defines.
-static char *parameter_name(const FrPrototype *prototype, uint32_t parameter) {
-    const FrParamTable *table = fr_pgraph_table(prototype->kind);
-    return parameter < table->count
-               ? fr_param_attribute(&table->rows[parameter])
-               : g_strdup(g_array_index(prototype->defines, FrGraftDefine, parameter - table->count)
-                              .name);
-}
-
-// Each parameter that had no value somewhere is reported once, first instances first.
-static void report_faults(const FrBuild *build, int workers) {
-    const FrExpansion *expansion = &build->expansion;
-    GHashTable *first = fr_value_faults_new();
-    for (int worker = 0; worker < workers; worker++) {
-        GHashTableIter iter;
-        gpointer key;
-        g_hash_table_iter_init(&iter, expansion->faults[worker]);
-        while (g_hash_table_iter_next(&iter, &key, NULL)) {
-            const FrValueFault *fault = key;
-            const FrValueFault *known = g_hash_table_lookup(first, fault);
-            if (known == NULL || fault->instance < known->instance) {
-                g_hash_table_add(first, g_memdup2(fault, sizeof *fault));
-            }
-        }
-    }
-    GPtrArray *sorted = g_ptr_array_new();
-    GHashTableIter iter;
-    gpointer key;
-    g_hash_table_iter_init(&iter, first);
-    while (g_hash_table_iter_next(&iter, &key, NULL)) {
-        g_ptr_array_add(sorted, key);
-    }
-    g_ptr_array_sort(sorted, compare_faults);
-    for (guint k = 0; k < sorted->len; k++) {
-        const FrValueFault *fault = g_ptr_array_index(sorted, k);
-        const FrPrototype *prototype = fr_pgraph_prototype(expansion->graph, fault->component);
-        char *attribute = parameter_name(prototype, fault->parameter);
-        char *what = g_strdup_printf("%s of '%s'", attribute, prototype->id);
-        fr_expr_report_fault(&fault->fault, what, build->context->diags);
-        g_free(what);
-        g_free(attribute);
-    }
-    if (build->made != NULL) {
-        build->made->has_faults = sorted->len > 0;
-    }
-    g_ptr_array_unref(sorted);
-    g_hash_table_unref(first);
-}
-
 // Keeps a level that has been made, or lets it go, and goes on with the next.
 static void step_down(FrBuild *build) {
     FrExpansion *expansion = &build->expansion;
@@ -373,7 +254,7 @@ static void step_down(FrBuild *build) {
     fr_progress_report(build->context->progress, "build", 1 - 1.0 / (1 + expansion->depth));
 }
 
-static FrStatus expand(FrBuild *build) {
+FrStatus fr_build_expand(FrBuild *build) {
     FrExpansion *expansion = &build->expansion;
     FrStatus status = fr_build_check_least(build);
     if (status == FR_OK) {
@@ -388,186 +269,6 @@ static FrStatus expand(FrBuild *build) {
         g_array_append_val(build->levels, expansion->level);
     } else {
         fr_level_clear(&expansion->level);
-    }
-    return status;
-}
-
-// Expands the graph, or takes all of the last build's rows.
-static FrStatus expand_or_share(FrBuild *build) {
-    FrPgraphBuild *made = build->made;
-    FrTwins twins = {0};
-    if (made == NULL) {
-        return expand(build);
-    }
-    fr_kept_begin(made, build, build->last, &twins);
-    FrStatus status = FR_OK;
-    if (twins.is_all) {
-        fr_kept_share_rows(made, build->last);
-        made->taken_over = build->last->counts.instances;
-        build->counts->instances = build->last->counts.instances;
-        memcpy(build->counts->by_component, build->last->counts.by_component,
-               fr_pgraph_count(build->expansion.graph) * sizeof *build->counts->by_component);
-    } else {
-        build->levels = g_array_new(FALSE, FALSE, sizeof(FrLevel));
-        build->expansion.twins = &twins;
-        status = expand(build);
-        made->taken_over = build->taken_over;
-        fr_kept_own_rows(made, build->levels);
-        g_array_unref(build->levels);
-    }
-    fr_twins_clear(&twins);
-    return status;
-}
-
-// Warns of edits without a place, and hands on which have one. Rows that are shared were looked at
-// by the build that made them.
-static void finish_edits(FrBuild *build) {
-    const FrPgraph *graph = build->expansion.graph;
-    uint32_t count = fr_pgraph_edit_count(graph);
-    if (count == 0) {
-        return;
-    }
-    if (build->made != NULL && build->last != NULL && build->last->rows == build->made->rows) {
-        memcpy(build->has_place, build->last->counts.edits, count);
-    }
-    fr_edits_report(graph, build->has_place, build->context->diags);
-    if (build->counts != NULL) {
-        build->counts->edits = g_memdup2(build->has_place, count);
-    }
-}
-
-static FrStatus prepare_and_expand(FrBuild *build, const FrRecursions *recursions) {
-    FrExpansion *expansion = &build->expansion;
-    const FrContext *context = build->context;
-    int workers = fr_pool_threads(context->pool);
-    expansion->faults = g_new(GHashTable *, workers);
-    for (int worker = 0; worker < workers; worker++) {
-        expansion->faults[worker] = fr_value_faults_new();
-    }
-    FrPrepared *prepared = NULL;
-    FrStatus status = fr_prepare(&prepared, expansion->graph, recursions, expansion->plant,
-                                 expansion->faults[0], context);
-    expansion->prepared = prepared;
-    expansion->ramps = fr_ramps_add(expansion->plant);
-    FrEdits *edits = fr_edits_new(expansion->graph);
-    expansion->edits = edits;
-    build->has_place = g_new0(uint8_t, MAX(fr_pgraph_edit_count(expansion->graph), 1));
-    status = status == FR_OK ? expand_or_share(build) : status;
-    if (status == FR_OK) {
-        fr_ramps_drop_unused(expansion->plant, expansion->ramps);
-    }
-    if (status == FR_OK) {
-        finish_edits(build);
-    }
-    g_free(build->has_place);
-    g_free(expansion->places);
-    fr_edits_free(edits);
-    g_free(expansion->ramps);
-    report_faults(build, workers);
-    for (int worker = 0; worker < workers; worker++) {
-        g_hash_table_unref(expansion->faults[worker]);
-    }
-    g_free(expansion->faults);
-    fr_prepared_free(prepared, fr_pgraph_count(expansion->graph));
-    return status;
-}
-
-static void begin_counts(FrPgraphCounts *counts, uint32_t components) {
-    if (counts == NULL) {
-        return;
-    }
-    bool wants_tree = counts->parent != NULL;
-    *counts = (FrPgraphCounts){.by_component = g_new0(uint64_t, MAX(components, 1))};
-    if (wants_tree) {
-        counts->parent = g_new(uint32_t, 1);
-        counts->component = g_new(uint32_t, 1);
-        counts->place = g_new(uint64_t, 1);
-    }
-}
-
-// Takes away what stems would have gone on with behind what they ended at, and all it bears. False
-// if there is nothing to take away.
-static bool drop_ended(FrPlant *plant) {
-    uint16_t all = 0;
-    for (uint32_t node = 0; node < plant->nodes.count; node++) {
-        all = (uint16_t)(all | plant->nodes.flags[node]);
-    }
-    if ((all & FR_SHED) != 0) {
-        fr_plant_compact(plant);
-    }
-    return (all & FR_SHED) != 0;
-}
-
-// The plant of build->expansion is there afterwards if the graph was right, finished or not.
-static FrStatus run(FrBuild *build, FrUnrolled *unrolled) {
-    const FrPgraph *graph = build->expansion.graph;
-    FrRecursions recursions;
-    fr_grafting_init(&build->grafting, build->graft);
-    begin_counts(build->counts, fr_pgraph_count(graph));
-    fr_recursions_find(&recursions, graph);
-    FrStatus status = fr_pgraph_check_all(graph, &recursions, build->context->diags, false);
-    if (status == FR_OK) {
-        build->expansion.plant = fr_plant_new(graph->name);
-        if (build->made != NULL) {
-            build->made->plant = build->expansion.plant;
-        }
-        build->expansion.fields = g_array_new(FALSE, TRUE, sizeof(FrField));
-        build->expansion.unrolled = unrolled;
-        status = fr_unroll(unrolled, graph, &recursions, build->context);
-        status = status == FR_OK ? prepare_and_expand(build, &recursions) : status;
-        bool has_fields = build->expansion.fields->len > 0;
-        bool is_cut = status == FR_OK && has_fields && drop_ended(build->expansion.plant);
-        if (build->made != NULL) {
-            build->made->is_cut = is_cut;
-        }
-        g_array_unref(build->expansion.fields);
-    }
-    fr_recursions_clear(&recursions);
-    fr_grafting_clear(&build->grafting);
-    g_free(build->numbers);
-    if (status == FR_OK) {
-        fr_progress_report(build->context->progress, "build", 1);
-    }
-    return status;
-}
-
-FrStatus fr_pgraph_build(const FrPgraph *graph, const FrContext *context, FrPlant **plant,
-                         FrPgraphCounts *counts) {
-    return fr_pgraph_build_grafted(graph, NULL, context, plant, counts);
-}
-
-FrStatus fr_pgraph_build_grafted(const FrPgraph *graph, const FrGraft *graft,
-                                 const FrContext *context, FrPlant **plant,
-                                 FrPgraphCounts *counts) {
-    FrBuild build = {.context = context,
-                     .counts = counts,
-                     .graft = graft,
-                     .expansion = {.graph = graph, .progress = context->progress}};
-    build.expansion.light = graft != NULL ? graft->light : NULL;
-    FrUnrolled unrolled = {0};
-    FrStatus status = run(&build, &unrolled);
-    if (build.expansion.plant != NULL) {
-        fr_unrolled_clear(&unrolled);
-    }
-    *plant = status == FR_OK ? build.expansion.plant : NULL;
-    if (status != FR_OK) {
-        fr_plant_free(build.expansion.plant);
-    }
-    return status;
-}
-
-FrStatus fr_pgraph_rebuild(const FrPgraph *graph, const FrPgraphBuild *last,
-                           const FrContext *context, FrPgraphBuild **made) {
-    FrPgraphBuild *kept = g_new0(FrPgraphBuild, 1);
-    FrBuild build = {.context = context,
-                     .counts = &kept->counts,
-                     .made = kept,
-                     .last = last != NULL && !last->is_cut ? last : NULL,
-                     .expansion = {.graph = graph, .progress = context->progress}};
-    FrStatus status = run(&build, &kept->unrolled);
-    *made = status == FR_OK ? kept : NULL;
-    if (status != FR_OK) {
-        fr_pgraph_build_free(kept);
     }
     return status;
 }

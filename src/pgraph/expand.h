@@ -1,5 +1,5 @@
 /// @file expand.h
-/// One build on its way, for the files that share the work of expand.c.
+/// One build on its way, for the files that share the work of build.c.
 #pragma once
 
 #include "pgraph/graft.h"
@@ -35,3 +35,18 @@ FrStatus fr_build_check(const FrBuild *build, uint64_t wanted, uint64_t limit, c
                         uint32_t row);
 /// A lower bound of instances from the numbers' ranges, so that absurd plants are refused at once.
 FrStatus fr_build_check_least(const FrBuild *build);
+
+/// Expands all levels into the plant; what was prepared must be there.
+FrStatus fr_build_expand(FrBuild *build);
+
+// record.c
+/// Empty counts, with or without an i-tree as the caller asked; nothing without counts.
+void fr_build_begin_counts(FrBuild *build);
+/// Adds a level that has been measured to the counts.
+void fr_build_record_level(FrBuild *build);
+/// Warns of edits without a place, and hands on which have one.
+void fr_build_finish_edits(FrBuild *build);
+
+// faults.c
+/// Reports each parameter that had no value somewhere once, first instances first.
+void fr_build_report_faults(const FrBuild *build, int workers);
