@@ -150,7 +150,7 @@ static json_t *make_stats(const CliSession *session, const char *document, const
     set_count(stats, "shapes", totals.shapes);
     if (io != NULL && io->surfaces > 0) {
         set_count(stats, "surfaces", io->surfaces);
-    } else if (io != NULL) {
+    } else if (io != NULL && io->entities == 0) {
         set_count(stats, "meshes", io->meshes);
         set_count(stats, "vertices", io->vertices);
         set_count(stats, "triangles", io->triangles);

@@ -22,10 +22,12 @@ static void say_written(const CliSession *session, const char *path, const FrIoS
     if (session->options->is_quiet || (sink != NULL && strcmp(sink, "-") == 0)) {
         return;
     }
-    bool is_rational = stats->surfaces > 0;
-    char *count = cli_count_text(is_rational ? stats->surfaces : stats->triangles);
+    char *count = cli_count_text(MAX(MAX(stats->surfaces, stats->entities), stats->triangles));
     char *size = g_format_size(stats->bytes);
-    printf("%s: %s %s, %s\n", path, count, is_rational ? "surfaces" : "triangles", size);
+    const char *what = stats->surfaces > 0   ? "surfaces"
+                       : stats->entities > 0 ? "entities"
+                                             : "triangles";
+    printf("%s: %s %s, %s\n", path, count, what, size);
     g_free(count);
     g_free(size);
 }

@@ -1,6 +1,7 @@
 // Nodes of a glTF asset: one for each stand, and its leaves as far as they are not part of the
 // plant's mesh. Nodes are written as text at once, for there may be millions of leaves.
 #include "io/gltf.h"
+#include "io/organ_groups.h"
 
 #include <math.h>
 
@@ -68,92 +69,42 @@ static FrGltfPose stand_pose(const FrStand *stand) {
 }
 
 static FrGltfPose organ_pose(const FrPlant *plant, uint32_t organ) {
-    vec3s at;
-    versors q;
-    fr_plant_organ_pose(plant, organ, &at, &q);
-    // The first-order normalization of frames is not quite exact enough for the validator.
-    double norm = sqrt((double)q.x * (double)q.x + (double)q.y * (double)q.y +
-                       (double)q.z * (double)q.z + (double)q.w * (double)q.w);
+    double at[3], q[4], scale;
+    fr_organ_group_pose(plant, organ, at, q, &scale);
     return (FrGltfPose){
-        .at = {(double)at.x, (double)at.z, -(double)at.y},
-        .rotation = {(double)q.x / norm, (double)q.z / norm, -(double)q.y / norm,
-                     (double)q.w / norm},
-        .scale = (double)plant->organs.scale[organ],
-    };
+        .at = {at[0], at[2], -at[1]}, .rotation = {q[0], q[2], -q[1], q[3]}, .scale = scale};
 }
 
-/// Organs of one shape and material, which share a mesh.
-typedef struct FrOrganGroup {
-    uint32_t shape, material;
+/// The shared mesh of a group of organs.
+typedef struct FrGltfGroup {
+    const FrOrganGroup *group;
     int mesh; ///< −1: nothing to see
     uint64_t triangles;
     char *name;                       ///< quoted
-    GArray *organs;                   ///< uint32_t
     int translation, rotation, scale; ///< accessors, for instancing
-} FrOrganGroup;
+} FrGltfGroup;
 
-static void group_clear(gpointer data) {
-    FrOrganGroup *group = data;
-    g_array_unref(group->organs);
-    free(group->name);
-}
+/// All groups of a plant.
+typedef struct FrGltfGroups {
+    GArray *organs; ///< FrOrganGroup
+    FrGltfGroup *meshes;
+} FrGltfGroups;
 
-static const char *group_word(const FrPlant *plant, uint32_t organ) {
-    uint32_t component = plant->organs.component[organ];
-    if (component != FR_NONE) {
-        return g_array_index(plant->components, FrComponent, component).id;
+static void groups_init(FrGltfGroups *groups, const FrPlant *plant) {
+    groups->organs = fr_organ_groups_new(plant);
+    groups->meshes = g_new0(FrGltfGroup, MAX(groups->organs->len, 1));
+    for (guint g = 0; g < groups->organs->len; g++) {
+        const FrOrganGroup *group = &g_array_index(groups->organs, FrOrganGroup, g);
+        groups->meshes[g] = (FrGltfGroup){.group = group, .mesh = -1, .name = quoted(group->word)};
     }
-    const FrShape *shape = &g_array_index(plant->shapes, FrShape, plant->organs.shape[organ]);
-    return shape->kind == FR_SHAPE_BLADE ? "leaf" : "organ";
 }
 
-/// Which nodes are shed or borne by something shed: skin leaves those out, and so must we.
-static bool *gone_nodes(const FrPlant *plant) {
-    const FrNodes *nodes = &plant->nodes;
-    bool *gone = g_new(bool, nodes->count);
-    for (uint32_t i = 0; i < nodes->count; i++) {
-        uint32_t parent = nodes->parent[i];
-        gone[i] = ((nodes->flags[i] | plant->axes.flags[nodes->axis[i]]) & FR_SHED) != 0 ||
-                  (parent != FR_NONE && gone[parent]);
+static void groups_clear(FrGltfGroups *groups) {
+    for (guint g = 0; g < groups->organs->len; g++) {
+        free(groups->meshes[g].name);
     }
-    return gone;
-}
-
-static bool is_seen(const FrPlant *plant, const bool *gone, uint32_t organ) {
-    uint32_t node = plant->organs.node[organ];
-    return (plant->organs.flags[organ] & (FR_SHED | FR_HIDDEN)) == 0 &&
-           (node == FR_NONE || !gone[node]);
-}
-
-/// Sorts a plant's organs into groups, in the order in which each first occurs.
-static GArray *group_organs(const FrPlant *plant) {
-    GArray *groups = g_array_new(FALSE, FALSE, sizeof(FrOrganGroup));
-    g_array_set_clear_func(groups, group_clear);
-    GHashTable *index = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
-    bool *gone = gone_nodes(plant);
-    for (uint32_t o = 0; o < plant->organs.count; o++) {
-        if (!is_seen(plant, gone, o)) {
-            continue;
-        }
-        uint64_t key = (uint64_t)plant->organs.shape[o] << 32 | plant->organs.material[o];
-        gpointer at;
-        if (!g_hash_table_lookup_extended(index, &key, NULL, &at)) {
-            FrOrganGroup group = {
-                .shape = plant->organs.shape[o],
-                .material = plant->organs.material[o],
-                .mesh = -1,
-                .name = quoted(group_word(plant, o)),
-                .organs = g_array_new(FALSE, FALSE, sizeof(uint32_t)),
-            };
-            at = GUINT_TO_POINTER(groups->len);
-            g_hash_table_insert(index, g_memdup2(&key, sizeof key), at);
-            g_array_append_val(groups, group);
-        }
-        g_array_append_val(g_array_index(groups, FrOrganGroup, GPOINTER_TO_UINT(at)).organs, o);
-    }
-    g_hash_table_unref(index);
-    g_free(gone);
-    return groups;
+    g_free(groups->meshes);
+    g_array_unref(groups->organs);
 }
 
 /// Arrays of a shape, made once for all groups that show it.
@@ -182,20 +133,19 @@ static FrStatus make_shape(FrGltf *gltf, const FrPlant *plant, uint32_t shape,
     return FR_OK;
 }
 
-static FrStatus make_group_meshes(FrGltf *gltf, const FrPlant *plant, GArray *groups,
+static FrStatus make_group_meshes(FrGltf *gltf, const FrPlant *plant, FrGltfGroups *groups,
                                   const FrSkinParams *skin) {
     FrShapeArrays *shapes = g_new0(FrShapeArrays, plant->shapes->len);
     FrStatus status = FR_OK;
-    for (guint g = 0; g < groups->len && status == FR_OK; g++) {
-        FrOrganGroup *group = &g_array_index(groups, FrOrganGroup, g);
-        FrShapeArrays *arrays = &shapes[group->shape];
-        status = make_shape(gltf, plant, group->shape, skin, arrays);
+    for (guint g = 0; g < groups->organs->len && status == FR_OK; g++) {
+        FrGltfGroup *group = &groups->meshes[g];
+        FrShapeArrays *arrays = &shapes[group->group->shape];
+        status = make_shape(gltf, plant, group->group->shape, skin, arrays);
         if (status != FR_OK) {
             break;
         }
-        arrays->part.material = group->material;
-        uint32_t first = g_array_index(group->organs, uint32_t, 0);
-        char *name = g_strdup_printf("%s %s", plant->name, group_word(plant, first));
+        arrays->part.material = group->group->material;
+        char *name = g_strdup_printf("%s %s", plant->name, group->group->word);
         status =
             fr_gltf_add_mesh(gltf, name, plant, &arrays->part, arrays->part_count, &group->mesh);
         g_free(name);
@@ -206,13 +156,14 @@ static FrStatus make_group_meshes(FrGltf *gltf, const FrPlant *plant, GArray *gr
 }
 
 /// The accessors of EXT_mesh_gpu_instancing for the organs of a group.
-static void make_instances(FrGltf *gltf, const FrPlant *plant, FrOrganGroup *group) {
-    guint count = group->organs->len;
+static void make_instances(FrGltf *gltf, const FrPlant *plant, FrGltfGroup *group) {
+    const GArray *organs = group->group->organs;
+    guint count = organs->len;
     vec3s *at = g_new(vec3s, count);
     float(*rotation)[4] = g_malloc_n(count, sizeof *rotation);
     vec3s *scale = g_new(vec3s, count);
     for (guint i = 0; i < count; i++) {
-        FrGltfPose pose = organ_pose(plant, g_array_index(group->organs, uint32_t, i));
+        FrGltfPose pose = organ_pose(plant, g_array_index(organs, uint32_t, i));
         for (int k = 0; k < 3; k++) {
             at[i].raw[k] = (float)pose.at[k];
             scale[i].raw[k] = (float)pose.scale;
@@ -234,14 +185,15 @@ static void make_instances(FrGltf *gltf, const FrPlant *plant, FrOrganGroup *gro
 }
 
 /// The nodes of a plant's organs below one stand of it.
-static void add_organ_nodes(FrGltf *gltf, const FrPlant *plant, const GArray *groups,
+static void add_organ_nodes(FrGltf *gltf, const FrPlant *plant, const FrGltfGroups *groups,
                             FrLeaves leaves) {
-    for (guint g = 0; g < groups->len; g++) {
-        const FrOrganGroup *group = &g_array_index(groups, FrOrganGroup, g);
+    for (guint g = 0; g < groups->organs->len; g++) {
+        const FrGltfGroup *group = &groups->meshes[g];
+        const GArray *organs = group->group->organs;
         if (group->mesh < 0) {
             continue;
         }
-        gltf->triangles += group->triangles * group->organs->len;
+        gltf->triangles += group->triangles * organs->len;
         if (leaves == FR_LEAVES_GPU) {
             begin_node(gltf, group->name, group->mesh);
             g_string_append_printf(gltf->nodes,
@@ -250,8 +202,8 @@ static void add_organ_nodes(FrGltf *gltf, const FrPlant *plant, const GArray *gr
                                    group->translation, group->rotation, group->scale);
             continue;
         }
-        for (guint i = 0; i < group->organs->len; i++) {
-            FrGltfPose pose = organ_pose(plant, g_array_index(group->organs, uint32_t, i));
+        for (guint i = 0; i < organs->len; i++) {
+            FrGltfPose pose = organ_pose(plant, g_array_index(organs, uint32_t, i));
             begin_node(gltf, group->name, group->mesh);
             add_pose(gltf->nodes, &pose);
             g_string_append_c(gltf->nodes, '}');
@@ -260,7 +212,7 @@ static void add_organ_nodes(FrGltf *gltf, const FrPlant *plant, const GArray *gr
 }
 
 static void add_stand(FrGltf *gltf, const FrStand *stand, const char *name, int mesh,
-                      const GArray *groups, FrLeaves leaves) {
+                      const FrGltfGroups *groups, FrLeaves leaves) {
     uint32_t first = gltf->node_count;
     if (groups != NULL) {
         add_organ_nodes(gltf, fr_io_plant(gltf->scene, stand->plant), groups, leaves);
@@ -287,12 +239,15 @@ static FrStatus add_plant(FrGltf *gltf, uint32_t p, const FrMesh *mesh,
     int wood = -1;
     FrStatus status = fr_gltf_add_mesh(gltf, plant->name, plant, parts, part_count, &wood);
     g_free(parts);
-    GArray *groups = NULL;
-    if (status == FR_OK && options->leaves != FR_LEAVES_MERGED && options->skin.foliage) {
-        groups = group_organs(plant);
-        status = make_group_meshes(gltf, plant, groups, &options->skin);
-        for (guint g = 0; g < groups->len && status == FR_OK; g++) {
-            FrOrganGroup *group = &g_array_index(groups, FrOrganGroup, g);
+    FrGltfGroups groups = {0};
+    bool is_grouped = options->leaves != FR_LEAVES_MERGED && options->skin.foliage;
+    if (is_grouped) {
+        groups_init(&groups, plant);
+    }
+    if (status == FR_OK && is_grouped) {
+        status = make_group_meshes(gltf, plant, &groups, &options->skin);
+        for (guint g = 0; g < groups.organs->len && status == FR_OK; g++) {
+            FrGltfGroup *group = &groups.meshes[g];
             if (options->leaves == FR_LEAVES_GPU && group->mesh >= 0) {
                 make_instances(gltf, plant, group);
             }
@@ -305,13 +260,13 @@ static FrStatus add_plant(FrGltf *gltf, uint32_t p, const FrMesh *mesh,
         if (stand->plant == p) {
             char *name = stands == 1 ? g_strdup(plant->name)
                                      : g_strdup_printf("%s %u", plant->name, ++number);
-            add_stand(gltf, stand, name, wood, groups, options->leaves);
+            add_stand(gltf, stand, name, wood, is_grouped ? &groups : NULL, options->leaves);
             gltf->triangles += mesh->index_count / 3;
             g_free(name);
         }
     }
-    if (groups != NULL) {
-        g_array_unref(groups);
+    if (is_grouped) {
+        groups_clear(&groups);
     }
     return status;
 }
