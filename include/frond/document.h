@@ -10,6 +10,7 @@
 #include "frond/lsystem_model.h"
 #include "frond/material.h"
 #include "frond/pgraph.h"
+#include "frond/placing.h"
 #include "frond/surroundings.h"
 #include "frond/variation.h"
 
@@ -140,9 +141,12 @@ FR_API FrSpan fr_document_span(const FrDocument *document);
 FR_API FrPgraph *fr_document_reseed(const FrDocument *document, const FrPlantDef *plant,
                                     uint64_t seed, double time);
 FR_API const char *fr_document_folder(const FrDocument *document);
-/// Arrays of FrPlantDef *, FrPlace *, FrViewParams * and FrMaterial *, owned by the document.
+/// Arrays of FrPlantDef *, FrPlace *, FrRow *, FrStrew *, FrViewParams * and FrMaterial *, owned by
+/// the document.
 FR_API const GPtrArray *fr_document_plants(const FrDocument *document);
 FR_API const GPtrArray *fr_document_places(const FrDocument *document);
+FR_API const GPtrArray *fr_document_rows(const FrDocument *document);
+FR_API const GPtrArray *fr_document_strews(const FrDocument *document);
 FR_API const GPtrArray *fr_document_views(const FrDocument *document);
 FR_API const GPtrArray *fr_document_materials(const FrDocument *document);
 FR_API const FrSceneParams *fr_document_scene(const FrDocument *document);

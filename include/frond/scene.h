@@ -72,6 +72,9 @@ FR_API FR_MUST_USE FrStatus fr_scene_collect(const FrDocument *document,
                                              FrScene **scene);
 /// A scene of one plant of a collection alone, at the origin, with its seed. It borrows the plant.
 FR_API FrScene *fr_scene_single(const FrScene *scene, uint32_t plant);
+/// How many plants the document places: by hand, in rows and strewn.
+FR_API FR_MUST_USE FrStatus fr_scene_count(const FrDocument *document, const FrContext *context,
+                                           uint64_t *count);
 FR_API void fr_scene_free(FrScene *scene);
 FR_API FrDigest fr_scene_digest(const FrScene *scene);
 /// The smallest box around everything, organs' shapes included roughly; min > max if nothing has

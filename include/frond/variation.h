@@ -93,6 +93,10 @@ FR_API FrStroke *fr_stroke_ref(FrStroke *stroke);
 FR_API void fr_stroke_unref(FrStroke *stroke);
 FR_API const FrStrokePoint *fr_stroke_points(const FrStroke *stroke, size_t *count);
 FR_API double fr_stroke_length(const FrStroke *stroke);
+/// The point so many metres along the stroke, and the unit direction there (may be NULL); clamped
+/// to its ends.
+FR_API void fr_stroke_at(const FrStroke *stroke, double distance, double point[3],
+                         double direction[3]);
 /// Reads `x,y,z x,y,z …`, each point with a pressure and a time if it has more numbers. NULL with
 /// a diagnostic at `span` if the text is wrong.
 FR_API FrStroke *fr_stroke_parse(const char *text, FrSpan span, FrDiags *diags);

@@ -170,6 +170,17 @@ static bool check_obstacles_spared(const CliOptions *options, const FrDocument *
     return true;
 }
 
+static bool check_densities_spared(const CliOptions *options, const FrDocument *document) {
+    const GPtrArray *strews = fr_document_strews(document);
+    for (guint i = 0; i < strews->len; i++) {
+        if (!is_spared(options, document,
+                       ((const FrStrew *)g_ptr_array_index(strews, i))->density)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// The user's own pictures are not overwritten either.
 static bool check_pictures_spared(const CliOptions *options, const FrDocument *document) {
     const GPtrArray *materials = fr_document_materials(document);
@@ -203,7 +214,8 @@ FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **do
     }
     if (status == FR_OK && !(check_pictures_spared(session->options, *document) &&
                              check_plants_spared(session->options, *document) &&
-                             check_obstacles_spared(session->options, *document))) {
+                             check_obstacles_spared(session->options, *document) &&
+                             check_densities_spared(session->options, *document))) {
         status = FR_ERR_USAGE;
     }
     if (status != FR_OK) {

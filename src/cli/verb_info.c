@@ -347,9 +347,12 @@ static FrStatus describe_as_text(CliSession *session, const FrDocument *document
     if (status == FR_OK) {
         print_names("materials: ", fr_document_materials(document), material_name);
         print_names("views: ", fr_document_views(document), view_name);
-        guint places = fr_document_places(document)->len;
-        if (places > 0) {
-            printf("scene: %u %s\n", places, places == 1 ? "plant stands" : "plants stand");
+        uint64_t stands;
+        status = fr_scene_count(document, &session->context, &stands);
+        if (status == FR_OK && stands > 0) {
+            char *count = cli_count_text(stands);
+            printf("scene: %s %s\n", count, stands == 1 ? "plant stands" : "plants stand");
+            g_free(count);
         }
     }
     return status;
@@ -358,13 +361,16 @@ static FrStatus describe_as_text(CliSession *session, const FrDocument *document
 static FrStatus describe_as_json(CliSession *session, const FrDocument *document) {
     json_t *plants = json_array();
     FrStatus status = describe_plants(session, document, plants);
+    uint64_t stands = 0;
+    if (status == FR_OK) {
+        status = fr_scene_count(document, &session->context, &stands);
+    }
     char *title = fr_document_title(document);
     char *name = g_utf8_make_valid(fr_document_name(document), -1);
-    json_t *info =
-        json_pack("{s:s, s:s?, s:o, s:o, s:o, s:I}", "document", name, "title", title, "plants",
-                  plants, "materials", names_json(fr_document_materials(document), material_name),
-                  "views", names_json(fr_document_views(document), view_name), "places",
-                  (json_int_t)fr_document_places(document)->len);
+    json_t *info = json_pack(
+        "{s:s, s:s?, s:o, s:o, s:o, s:I}", "document", name, "title", title, "plants", plants,
+        "materials", names_json(fr_document_materials(document), material_name), "views",
+        names_json(fr_document_views(document), view_name), "places", (json_int_t)stands);
     if (status == FR_OK) {
         json_dumpf(info, stdout, JSON_INDENT(2));
         printf("\n");

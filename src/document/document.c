@@ -37,6 +37,8 @@ static FrDocument *new_document(FrXmlTree *tree, const char *folder) {
     document->folder = g_strdup(folder == NULL ? "." : folder);
     document->plants = g_ptr_array_new_with_free_func(free_plant);
     document->places = g_ptr_array_new_with_free_func(free_place);
+    document->rows = fr_rows_new();
+    document->strews = fr_strews_new();
     document->views = g_ptr_array_new_with_free_func(free_view);
     document->materials = g_ptr_array_new_with_free_func(free_material);
     document->scope = fr_scope_new();
@@ -51,6 +53,8 @@ void fr_document_free(FrDocument *document) {
     }
     g_ptr_array_unref(document->plants);
     g_ptr_array_unref(document->places);
+    g_ptr_array_unref(document->rows);
+    g_ptr_array_unref(document->strews);
     g_ptr_array_unref(document->views);
     g_ptr_array_unref(document->materials);
     fr_params_clear(fr_scene_table(), &document->scene);
@@ -166,6 +170,14 @@ const GPtrArray *fr_document_plants(const FrDocument *document) {
 
 const GPtrArray *fr_document_places(const FrDocument *document) {
     return document->places;
+}
+
+const GPtrArray *fr_document_rows(const FrDocument *document) {
+    return document->rows;
+}
+
+const GPtrArray *fr_document_strews(const FrDocument *document) {
+    return document->strews;
 }
 
 const GPtrArray *fr_document_views(const FrDocument *document) {

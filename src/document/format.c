@@ -121,8 +121,10 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                           .table = &scene_table,
                           .is_once = true,
                           .children = SET(SUN) | SET(LIGHT) | SET(LAMP) | SET(OBSTACLE) |
-                                      SET(PLACE) | SET(VIEW)},
+                                      SET(PLACE) | SET(ROW) | SET(STREW) | SET(VIEW)},
     [FR_ELEMENT_PLACE] = {.name = "place", .table = &place_table, .required = "plant"},
+    [FR_ELEMENT_ROW] = {.name = "row", .required = "plants", .has_text = true},
+    [FR_ELEMENT_STREW] = {.name = "strew", .required = "plants"},
     [FR_ELEMENT_VIEW] = {.name = "view", .table = &view_table, .required = "name"},
     [FR_ELEMENT_OBSTACLE] = {.name = "obstacle"},
     [FR_ELEMENT_LAMP] = {.name = "lamp"},
@@ -153,6 +155,10 @@ FrElement fr_element(FrElementId id) {
         element.table = fr_stroke_table();
     } else if (id == FR_ELEMENT_INDICATOR) {
         element.table = fr_indicator_table();
+    } else if (id == FR_ELEMENT_ROW) {
+        element.table = fr_row_table();
+    } else if (id == FR_ELEMENT_STREW) {
+        element.table = fr_strew_table();
     } else if (id >= FR_ELEMENT_OBSTACLE && id <= FR_ELEMENT_LIGHT) {
         const FrParamTable *tables[] = {fr_obstacle_table(), fr_lamp_table(), fr_sun_table(),
                                         fr_light_table()};

@@ -10,17 +10,12 @@ static void read_stroke(FrReader *reader, uint32_t node, FrVary *vary) {
     FrStrokeParams params;
     fr_params_init(fr_stroke_table(), &params);
     fr_read_attributes(reader, node, FR_ELEMENT_STROKE, &params);
-    FrXmlRange place;
-    char *text = fr_read_text(reader, node, &place);
-    FrStroke *stroke = fr_stroke_parse(text, fr_xml_span(reader->tree, place), reader->diags);
-    if (stroke == NULL) {
-        fr_read_note(reader, FR_ERR_DOCUMENT);
-    } else {
+    FrStroke *stroke = fr_read_line(reader, node);
+    if (stroke != NULL) {
         FrSpan span = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "select"));
         fr_vary_add_stroke(vary, stroke, params.select, (FrApply)params.apply, span);
     }
     fr_stroke_unref(stroke);
-    g_free(text);
     fr_params_clear(fr_stroke_table(), &params);
 }
 

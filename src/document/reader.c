@@ -247,3 +247,35 @@ FrXmlRange fr_read_value_place(const FrReader *reader, uint32_t node, const char
     const FrXmlAttribute *found = fr_xml_attribute(reader->tree, node, attribute);
     return found == NULL ? reader->tree->nodes[node].name : found->value;
 }
+
+// ---- lines and pictures -----------------------------------------------------------------------
+
+FrStroke *fr_read_line(FrReader *reader, uint32_t node) {
+    FrXmlRange place;
+    char *text = fr_read_text(reader, node, &place);
+    FrStroke *line = fr_stroke_parse(text, fr_xml_span(reader->tree, place), reader->diags);
+    if (line == NULL) {
+        fr_read_note(reader, FR_ERR_DOCUMENT);
+    }
+    g_free(text);
+    return line;
+}
+
+FrImage *fr_read_picture(FrReader *reader, uint32_t node, const char *attribute, const char *file) {
+    if (file == NULL || *file == '\0' || reader->context == NULL) {
+        return NULL;
+    }
+    FrXmlRange place = fr_read_value_place(reader, node, attribute);
+    if (g_path_is_absolute(file)) {
+        fr_read_error(reader, "absolute-path", place,
+                      "files are named relative to the document, not '%s'", file);
+        return NULL;
+    }
+    char *path = g_build_filename(reader->document->folder, file, NULL);
+    FrStatus status = FR_OK;
+    FrImage *image =
+        fr_image_load(path, fr_xml_span(reader->tree, place), reader->context, &status);
+    fr_read_note(reader, status);
+    g_free(path);
+    return image;
+}

@@ -9,7 +9,7 @@
 struct FrDocument {
     FrXmlTree *tree;
     char *folder;
-    GPtrArray *plants, *places, *views, *materials;
+    GPtrArray *plants, *places, *rows, *strews, *views, *materials;
     FrSceneParams scene;
     FrSurroundings surroundings;
     FrScope *scope;
@@ -62,6 +62,11 @@ FrVary *fr_read_vary(FrReader *reader, uint32_t node);
 /// Reports varied plants whose base is no other plant.
 void fr_read_check_bases(FrReader *reader);
 void fr_read_scenes(FrReader *reader, uint32_t parent);
+/// Where plants stand in a `<scene>`.
+void fr_read_placing(FrReader *reader, uint32_t scene);
+/// Arrays of FrRow * and FrStrew *.
+GPtrArray *fr_rows_new(void);
+GPtrArray *fr_strews_new(void);
 /// What stands and shines in a `<scene>`.
 void fr_read_surroundings(FrReader *reader, uint32_t scene);
 void fr_surroundings_init(FrSurroundings *surroundings);
@@ -79,6 +84,11 @@ FrSource *fr_read_own_source(FrReader *reader, uint32_t node, const char *file);
 /// The text within an element and its place, from its first to its last text or CDATA section.
 /// Free with g_free().
 char *fr_read_text(const FrReader *reader, uint32_t node, FrXmlRange *place);
+/// The line that the text within an element gives, point by point; NULL with an error. Free with
+/// fr_stroke_unref().
+FrStroke *fr_read_line(FrReader *reader, uint32_t node);
+/// The picture that an attribute names, relative to the document; NULL for none, or with an error.
+FrImage *fr_read_picture(FrReader *reader, uint32_t node, const char *attribute, const char *file);
 void fr_read_note(FrReader *reader, FrStatus status);
 /// An error at a place of the text.
 void fr_read_error(FrReader *reader, const char *code, FrXmlRange place, const char *format, ...)

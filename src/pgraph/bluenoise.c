@@ -3,7 +3,10 @@
 #include <glib.h>
 #include <math.h>
 
-enum { MOST_CELLS = 1024 }; // along a side
+enum {
+    MOST_CELLS = 1024, // along a side
+    MOST_TRIES = 200   // to find a place where points may be
+};
 #define NO_POINT UINT32_MAX
 
 // Cells over the square from −1 to 1, each with a chain of its points: it finds the nearest point
@@ -67,8 +70,57 @@ static void draw(double point[2], FrStrewnForm form, double inner, FrKey key, ui
     point[1] = radius * sin(2 * G_PI * b);
 }
 
+/// What a candidate is drawn from.
+typedef struct Lots {
+    FrStrewnForm form;
+    double inner;
+    const FrStrewnDensity *density;
+} Lots;
+
+/// Draws a candidate where a point may be; the density there, 0 if none was found.
+static double draw_dense(double point[2], const Lots *lots, FrKey key, uint32_t candidate) {
+    if (lots->density == NULL) {
+        draw(point, lots->form, lots->inner, key, candidate);
+        return 1;
+    }
+    for (uint32_t k = 0; k < MOST_TRIES; k++) {
+        uint32_t number = candidate * MOST_TRIES + k;
+        draw(point, lots->form, lots->inner, key, number);
+        point[0] *= lots->density->reach[0];
+        point[1] *= lots->density->reach[1];
+        double density = lots->density->at(lots->density->data, point);
+        if (fr_random(key, 2, number) < density) {
+            return density;
+        }
+    }
+    return 0;
+}
+
+/// The best of some candidates, NAN if there is none.
+static void draw_best(double best[2], const Grid *grid, const Lots *lots, FrKey key,
+                      uint32_t candidates) {
+    double farthest = -1;
+    best[0] = best[1] = NAN;
+    for (uint32_t c = 0; c < candidates; c++) {
+        double point[2];
+        double density = draw_dense(point, lots, key, c);
+        if (density <= 0) {
+            continue;
+        }
+        double distance =
+            candidates > 1 ? density * nearest_point(grid, point, farthest / density) : 0;
+        if (distance > farthest) {
+            farthest = distance;
+            best[0] = point[0];
+            best[1] = point[1];
+        }
+    }
+}
+
 void fr_bluenoise(double (*points)[2], uint32_t count, FrStrewnForm form, double inner,
-                  uint32_t candidates, FrKey key, const FrProgress *progress) {
+                  uint32_t candidates, FrKey key, const FrStrewnDensity *density,
+                  const FrProgress *progress) {
+    const Lots lots = {form, inner, density};
     uint32_t side = (uint32_t)CLAMP(sqrt(count), 1, MOST_CELLS);
     Grid grid = {
         .points = (const double(*)[2])points,
@@ -81,17 +133,13 @@ void fr_bluenoise(double (*points)[2], uint32_t count, FrStrewnForm form, double
     }
     for (uint32_t i = 0; i < count; i++) {
         candidates = i % 256 == 0 && fr_progress_is_cancelled(progress) ? 1 : candidates;
-        FrKey own = fr_key_child(key, i);
-        double best = -1;
-        for (uint32_t c = 0; c < candidates; c++) {
-            double point[2];
-            draw(point, form, inner, own, c);
-            double distance = candidates > 1 ? nearest_point(&grid, point, best) : 0;
-            if (distance > best) {
-                best = distance;
-                points[i][0] = point[0];
-                points[i][1] = point[1];
-            }
+        if (i > 0 && isnan(points[0][0])) {
+            points[i][0] = points[i][1] = NAN;
+            continue;
+        }
+        draw_best(points[i], &grid, &lots, fr_key_child(key, i), candidates);
+        if (isnan(points[i][0])) {
+            continue;
         }
         size_t cell = (size_t)cell_of(&grid, points[i][1]) * side + cell_of(&grid, points[i][0]);
         grid.next[i] = grid.first[cell];

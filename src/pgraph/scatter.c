@@ -109,7 +109,7 @@ static void strew_plane(FrSpread *spread, const FrScatterParams *params, uint32_
     double widest = params->surface == FR_SCATTER_RING ? fmax(radius, inner) : radius;
     double(*points)[2] = g_malloc_n(spread->count, sizeof *points);
     fr_bluenoise(points, spread->count, (FrStrewnForm)params->surface,
-                 widest > 0 ? fmin(radius, inner) / widest : 0, candidates, key,
+                 widest > 0 ? fmin(radius, inner) / widest : 0, candidates, key, NULL,
                  spread->expansion->progress);
     versors upright = to_upright(spread, 1 - params->align);
     for (uint32_t i = 0; i < spread->count; i++) {

@@ -1,6 +1,7 @@
 /// A document built: each plant once for every seed it stands with.
 #include "scene/growing.h"
 #include "scene/obstacles.h"
+#include "scene/placing.h"
 #include "scene/rebuild.h"
 #include "scene/sampled.h"
 #include "scene/varied.h"
@@ -12,11 +13,10 @@ typedef struct Build {
     const FrDocument *document;
     const FrContext *context;
     FrScene *scene;
-    GHashTable *definitions; ///< id → FrPlantDef *
-    GHashTable *built;       ///< "id seed" → index into plants + 1
-    GHashTable *varied;      ///< FrPlantDef * → FrVaried *
-    int64_t seed;            ///< < 0: as the document says
-    double time;             ///< of all clocks; NAN: as the document says
+    GHashTable *built;  ///< "id seed" → index into plants + 1
+    GHashTable *varied; ///< FrPlantDef * → FrVaried *
+    int64_t seed;       ///< < 0: as the document says
+    double time;        ///< of all clocks; NAN: as the document says
     uint64_t bytes;
     FrGrowing *growing;
     FrSceneParts *parts; ///< NULL
@@ -198,21 +198,12 @@ static FrStatus stand_plant(Build *build, const FrPlantDef *definition, int64_t 
     return status;
 }
 
-static FrStatus build_place(Build *build, const FrPlace *place) {
-    const FrPlantDef *definition =
-        place->plant == NULL ? NULL : g_hash_table_lookup(build->definitions, place->plant);
-    if (definition == NULL) {
-        fr_diags_add(build->context->diags, FR_ERROR, "unknown-plant", place->span,
-                     "no plant to stand here");
-        return FR_ERR_DOCUMENT;
-    }
+static FrStatus build_place(Build *build, const FrPlaced *placed) {
     if (fr_progress_is_cancelled(build->context->progress)) {
         return FR_CANCELLED;
     }
-    FrStand stand = {.at = {(double)place->at.x, (double)place->at.y, (double)place->at.z},
-                     .turn = place->turn,
-                     .scale = place->scale};
-    return stand_plant(build, definition, place->seed, &stand);
+    FrStand stand = placed->stand;
+    return stand_plant(build, placed->plant, placed->seed, &stand);
 }
 
 /// Without places: the first plant at the origin.
@@ -228,16 +219,18 @@ static FrStatus build_first(Build *build) {
 }
 
 static FrStatus build_places(Build *build) {
-    const GPtrArray *places = fr_document_places(build->document);
-    if (places->len == 0) {
+    const FrDocument *document = build->document;
+    if (fr_document_places(document)->len + fr_document_rows(document)->len +
+            fr_document_strews(document)->len ==
+        0) {
         return build_first(build);
     }
-    const FrPlace *first = g_ptr_array_index(places, 0);
-    FrStatus status = fr_limit_check(places->len, build->context->limits.plants, "plants",
-                                     "the scene", first->span, build->context->diags);
-    for (guint i = 0; i < places->len && status == FR_OK; i++) {
-        status = build_place(build, g_ptr_array_index(places, i));
+    GArray *placed;
+    FrStatus status = fr_scene_places(document, build->context, &placed);
+    for (guint i = 0; status == FR_OK && i < placed->len; i++) {
+        status = build_place(build, &g_array_index(placed, FrPlaced, i));
     }
+    g_clear_pointer(&placed, g_array_unref);
     return status;
 }
 
@@ -310,7 +303,6 @@ static FrStatus build_scene(const FrDocument *document, int64_t seed, double tim
     Build build = {.document = document,
                    .context = context,
                    .scene = new_scene(document, seed),
-                   .definitions = g_hash_table_new(g_str_hash, g_str_equal),
                    .built = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
                    .varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied),
                    .seed = seed,
@@ -318,11 +310,6 @@ static FrStatus build_scene(const FrDocument *document, int64_t seed, double tim
                    .growing = fr_growing_new(steps_at(document, time)),
                    .parts = parts,
                    .sampled = fr_sampled_new()};
-    const GPtrArray *plants = fr_document_plants(document);
-    for (guint i = 0; i < plants->len; i++) {
-        FrPlantDef *definition = g_ptr_array_index(plants, i);
-        g_hash_table_insert(build.definitions, definition->id, definition);
-    }
     FrStatus status = build_places(&build);
     if (status == FR_OK) {
         status = build_obstacles(&build);
@@ -335,7 +322,6 @@ static FrStatus build_scene(const FrDocument *document, int64_t seed, double tim
     }
     fr_growing_free(build.growing);
     fr_sampled_free(build.sampled);
-    g_hash_table_unref(build.definitions);
     g_hash_table_unref(build.built);
     g_hash_table_unref(build.varied);
     if (status != FR_OK) {

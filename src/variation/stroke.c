@@ -89,6 +89,25 @@ static void walk_to(Walk *walk, double distance, double point[3]) {
     }
 }
 
+void fr_stroke_at(const FrStroke *stroke, double distance, double point[3], double direction[3]) {
+    // The last point that is not beyond the distance, with one after it that is elsewhere.
+    size_t low = 0, high = stroke->count - 1;
+    while (high - low > 1) {
+        size_t middle = (low + high) / 2;
+        bool is_before = stroke->distance[middle] <= distance &&
+                         stroke->distance[middle] < fr_stroke_length(stroke);
+        *(is_before ? &low : &high) = middle;
+    }
+    Walk walk = {stroke, low};
+    walk_to(&walk, distance, point);
+    double length = stroke->distance[walk.at + 1] - stroke->distance[walk.at];
+    for (int k = 0; k < 3 && direction != NULL; k++) {
+        double from = (double)stroke->points[walk.at].at.raw[k];
+        double to = (double)stroke->points[walk.at + 1].at.raw[k];
+        direction[k] = length > 0 ? (to - from) / length : (double)(k == 0);
+    }
+}
+
 void fr_stroke_resample(const FrStroke *stroke, const float *lengths, size_t count,
                         vec3s *headings) {
     double total = 0;

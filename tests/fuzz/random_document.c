@@ -417,6 +417,17 @@ static void append_scene(Maker *maker, uint32_t plants) {
         append_real(maker, value_within(maker, 0.001, 1000));
         append(maker, "\"/>\n");
     }
+    if (one_in(maker, 4)) {
+        append(maker, "<row plants=\"plant%u\" individuals=\"2\" spacing=\"", pick(maker, plants));
+        append_real(maker, value_within(maker, 0.1, 9));
+        append(maker, "\">0,0,0 %u,3,1</row>\n", pick(maker, 9));
+    }
+    if (one_in(maker, 4)) {
+        append(maker, "<strew plants=\"plant%u 2\" individuals=\"1\" number=\"%u\" spacing=\"",
+               pick(maker, plants), pick(maker, 9));
+        append_real(maker, value_within(maker, 0, 9));
+        append(maker, "\"/>\n");
+    }
     append(maker, "</scene>\n");
 }
 

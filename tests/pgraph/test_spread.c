@@ -225,8 +225,8 @@ static void scatter_keeps_apart(void) {
     double(*chance)[2] = g_malloc_n(COUNT, sizeof *chance);
     for (int form = FR_STREWN_DISC; form <= FR_STREWN_RING; form++) {
         double area = form == FR_STREWN_SQUARE ? 4 : form == FR_STREWN_RING ? 0.75 * G_PI : G_PI;
-        fr_bluenoise(even, COUNT, (FrStrewnForm)form, 0.5, 20, 7, NULL);
-        fr_bluenoise(chance, COUNT, (FrStrewnForm)form, 0.5, 1, 7, NULL);
+        fr_bluenoise(even, COUNT, (FrStrewnForm)form, 0.5, 20, 7, NULL, NULL);
+        fr_bluenoise(chance, COUNT, (FrStrewnForm)form, 0.5, 1, 7, NULL, NULL);
         double room = sqrt(area / COUNT);
         g_assert_cmpfloat(nearest_pair((const double(*)[2])even, COUNT), >, 0.5 * room);
         g_assert_cmpfloat(nearest_pair((const double(*)[2])chance, COUNT), <, 0.2 * room);
@@ -244,8 +244,8 @@ static void scatter_grid_is_only_faster(void) {
     // The best candidate by looking at all points.
     enum { COUNT = 60, CANDIDATES = 5 };
     double points[COUNT][2], fewer[COUNT / 2][2];
-    fr_bluenoise(points, COUNT, FR_STREWN_SQUARE, 0, CANDIDATES, 3, NULL);
-    fr_bluenoise(fewer, COUNT / 2, FR_STREWN_SQUARE, 0, CANDIDATES, 3, NULL);
+    fr_bluenoise(points, COUNT, FR_STREWN_SQUARE, 0, CANDIDATES, 3, NULL, NULL);
+    fr_bluenoise(fewer, COUNT / 2, FR_STREWN_SQUARE, 0, CANDIDATES, 3, NULL, NULL);
     // Other numbers of points have other grids, and the same first points.
     g_assert_true(memcmp(points, fewer, sizeof fewer) == 0);
     for (uint32_t i = 0; i < COUNT; i++) {
