@@ -19,6 +19,9 @@ void bench_tell(const char *name, double value, double limit, const char *unit,
                 const char *work_format, ...) FR_PRINTF(5, 6);
 
 double bench_now(void);
+/// Processor time of all threads, s. Unlike the clock on the wall it is little disturbed by other
+/// programs.
+double bench_processor(void);
 
 /// The shortest of `repeats` runs, in seconds.
 double bench_shortest(int repeats, void (*run)(void *data), void *data);

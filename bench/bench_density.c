@@ -156,10 +156,46 @@ static void plain_rays(void *data) {
     bench_keep(&sum);
 }
 
-static void bench_cloud(const char *name, const char *rate_name, uint32_t count) {
+/// How many leaves QuasiMC (AlgorithmicBotany/vlab) reaches in a cloud of this kind. It sends its
+/// rays from a disc as large as a ball around the scene, of which the cloud takes up only a part,
+/// and absorbs nothing: at each of its five meetings a ray leaves most of its weight and goes on.
+/// The same here: a box that is as large from the side, and leaves that let every photon go on.
+static uint32_t reach_as_weights_do(uint32_t count) {
     Cloud cloud = {0};
     start_cloud(&cloud, count);
+    Mesh *mesh = cloud.made[0];
+    const FrOptics keeping = {.diffuse = 0.5f, .transmit_diffuse = 0.5f};
+    mesh->material = (FrLightMaterial){.front = keeping, .back = keeping};
+    float square = 0.0f;
+    for (uint32_t v = 0; v < 4 * count; v++) {
+        vec3s at;
+        memcpy(at.raw, mesh->mesh.vertices[v].position, sizeof at.raw);
+        square = fmaxf(square, glms_vec3_distance2(at, (vec3s){{5, 5, 5}}));
+    }
+    float half = 0.5f * sqrtf((float)G_PI * square);
+    for (int c = 0; c < 3; c++) {
+        cloud.scene.min.raw[c] = 5.0f - half;
+        cloud.scene.max.raw[c] = 5.0f + half;
+    }
+    light_cloud(&cloud);
+    const FrPaths *paths = ((FrDensity *)(void *)cloud.light)->paths;
+    uint32_t reached = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint64_t *met = &paths->met[4 * (size_t)i]; // two sides of two triangles
+        reached += met[0] + met[1] + met[2] + met[3] > 0;
+    }
+    fr_light_free(cloud.light);
+    free_mesh(mesh);
+    return reached;
+}
+
+/// `theirs`: how many leaves QuasiMC reaches.
+static void bench_cloud(const char *name, const char *rate_name, uint32_t count, uint32_t theirs) {
+    Cloud cloud = {0};
+    start_cloud(&cloud, count);
+    double processor = bench_processor();
     double seconds = bench_shortest(2, light_cloud, &cloud);
+    processor = 0.5 * (bench_processor() - processor);
     uint64_t rays = fr_light_stats(cloud.light).rays;
     uint32_t hit = 0;
     double total = 0.0;
@@ -170,9 +206,11 @@ static void bench_cloud(const char *name, const char *rate_name, uint32_t count)
     }
     bench_tell(name, PHOTONS / seconds, 0, "photons/s",
                "%u leaves, %d photons, %" G_GUINT64_FORMAT " rays, light back on every leaf, in "
-               "%.2f s on one thread, search tree included: %u leaves hit, total %.2f, %.0f MB",
-               count, PHOTONS, rays, seconds, hit, total,
-               (double)fr_light_stats(cloud.light).bytes / 1e6);
+               "%.2f s on one thread (%.2f s of processor), search tree included: %u leaves hit, "
+               "total %.2f, %.0f MB; with rays that lose weight instead of ending %u leaves, "
+               "QuasiMC %u",
+               count, PHOTONS, rays, seconds, processor, hit, total,
+               (double)fr_light_stats(cloud.light).bytes / 1e6, reach_as_weights_do(count), theirs);
     cloud.rays = fr_rays_new(NULL, NULL);
     fr_rays_add_stand(cloud.rays, fr_rays_add_mesh(cloud.rays, &cloud.made[0]->mesh),
                       glms_mat4_identity());
@@ -300,12 +338,13 @@ static void bench_estimators(Room *room) {
 static void bench_room(int threads) {
     Room *room = g_new0(Room, 1);
     start_room(room, threads);
-    double start = bench_now();
+    double processor = bench_processor(), start = bench_now();
     light_cloud(&room->cloud);
     double traced = bench_now() - start;
     start = bench_now();
     ask(room);
     double first = bench_now() - start;
+    double first_processor = bench_processor() - processor;
     double again = bench_shortest(3, ask, room);
     FrLightStats stats = fr_light_stats(room->cloud.light);
     uint64_t samples = 0;
@@ -321,13 +360,15 @@ static void bench_room(int threads) {
         bench_estimators(room);
     }
     double sum = 0.0;
+    processor = bench_processor();
     for (uint32_t step = 1; step <= 5; step++) {
         sum += grow_room(room, step);
     }
+    processor = bench_processor() - processor;
     bench_tell(threads == 1 ? "density.step" : "density.step-2-threads", 5.0 / sum, 0, "steps/s",
-               "a million photons, 500 leaves more and %d queries a step: %.2f s a step, the first "
-               "with all photons %.2f s, %d threads",
-               QUERIES, sum / 5.0, traced + first, threads);
+               "a million photons, 500 leaves more and %d queries a step: %.2f s a step (%.2f s of "
+               "processor), the first with all photons %.2f s (%.2f s), %d threads",
+               QUERIES, sum / 5.0, processor / 5.0, traced + first, first_processor, threads);
     fr_light_free(room->cloud.light);
     fr_pool_free(room->cloud.context.pool);
     free_mesh(room->cloud.made[0]);
@@ -336,8 +377,8 @@ static void bench_room(int threads) {
 }
 
 void bench_density(void) {
-    bench_cloud("density.photon-25k", "density.rays-25k", 25000);
-    bench_cloud("density.photon-250k", "density.rays-250k", 250000);
+    bench_cloud("density.photon-25k", "density.rays-25k", 25000, 22403);
+    bench_cloud("density.photon-250k", "density.rays-250k", 250000, 213749);
     bench_update();
     bench_room(1);
     bench_room(2);

@@ -25,6 +25,13 @@ static double peak_bytes(void) {
     return 1024.0 * (double)usage.ru_maxrss;
 }
 
+double bench_processor(void) {
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return (double)usage.ru_utime.tv_sec + (double)usage.ru_stime.tv_sec +
+           1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
 /// 12 345 678 as "12.3 M".
 static void print_rate(double value) {
     static const char *const prefixes[] = {"", " k", " M", " G", " T"};

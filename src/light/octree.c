@@ -2,6 +2,8 @@
 // around refinement points, references pushed down from parents, empty cells removed.
 #include "light/octree.h"
 
+#include "light/segments.h"
+
 #include <string.h>
 
 FrOctree *fr_octree_new(void) {
@@ -95,147 +97,129 @@ uint32_t fr_octree_want(FrOctree *tree, uint32_t level, const uint32_t at[3]) {
     return cell;
 }
 
-/// A cell as a box, and slack for rounding.
-typedef struct Box {
-    double middle[3], half;
-} Box;
-
-static Box box_of(const FrOctree *tree, const FrCell *cell) {
-    Box box;
-    double width = fr_octree_cell_width(tree, cell->level);
-    for (int c = 0; c < 3; c++) {
-        box.middle[c] = tree->min[c] + (cell->at[c] + 0.5) * width;
-    }
-    box.half = 0.5 * width + 1e-9 * tree->width;
-    return box;
-}
-
-/// A segment made ready for tests against boxes.
-typedef struct Line {
-    double middle[3], half[3]; ///< half: from the middle to an end, without sign
-    double way[3], size[3];    ///< direction, with and without sign
-} Line;
-
-static inline Line line_of(const FrRay *ray, double reach) {
-    Line line;
-    for (int c = 0; c < 3; c++) {
-        line.way[c] = (double)ray->direction[c];
-        line.size[c] = fabs(line.way[c]);
-        line.middle[c] = (double)ray->origin[c] + 0.5 * reach * line.way[c];
-        line.half[c] = 0.5 * reach * line.size[c];
-    }
-    return line;
-}
-
-// A segment and a box, by separating axes (Gottschalk, Lin, Manocha 1996); true where in doubt.
-static inline bool passes(const Box *box, const Line *line) {
-    const double *w = line->way, *a = line->size;
-    double m[3];
-    for (int c = 0; c < 3; c++) {
-        m[c] = line->middle[c] - box->middle[c];
-        if (fabs(m[c]) > box->half + line->half[c]) {
-            return false;
-        }
-    }
-    return fabs(m[1] * w[2] - m[2] * w[1]) <= box->half * (a[1] + a[2]) &&
-           fabs(m[2] * w[0] - m[0] * w[2]) <= box->half * (a[2] + a[0]) &&
-           fabs(m[0] * w[1] - m[1] * w[0]) <= box->half * (a[0] + a[1]);
-}
-
-enum { CHILDREN_AT_ONCE = 4 };
-
-/// Some new cells of one parent, which are filled together.
+/// Children of one cell that rays are sieved into.
 typedef struct Litter {
-    uint32_t parent, count;
-    uint32_t cells[CHILDREN_AT_ONCE];
+    uint32_t parent;
+    uint32_t children; ///< bits
+    uint16_t level;    ///< of the parent
+    uint32_t begin;    ///< of the parent's list; the rays before are known to the children
 } Litter;
 
-typedef struct Filling {
+typedef struct Sieving {
     const FrOctree *tree;
     const FrPaths *paths;
     const Litter *litters;
-} Filling;
+    const uint32_t *slots; ///< what comes in at the root; NULL: all rays
+    uint32_t slot_count;
+} Sieving;
 
-// Sieves the parent's rays; those of the root are all.
-static void fill_litter(const FrOctree *tree, const Litter *litter, const FrPaths *paths) {
-    const FrSlots *above = litter->parent != 0 ? &cell_at(tree, litter->parent)->rays : NULL;
-    uint32_t count = above != NULL ? above->count : paths->count;
-    FrSlots found[CHILDREN_AT_ONCE];
-    Box boxes[CHILDREN_AT_ONCE];
-    for (uint32_t k = 0; k < litter->count; k++) {
-        FrCell *cell = cell_at(tree, litter->cells[k]);
-        boxes[k] = box_of(tree, cell);
-        found[k] = cell->rays;
-        found[k].count = 0;
+static void middle_of(const FrOctree *tree, const FrCell *cell, double middle[3]) {
+    double width = fr_octree_cell_width(tree, cell->level);
+    for (int c = 0; c < 3; c++) {
+        middle[c] = tree->min[c] + (cell->at[c] + 0.5) * width;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t slot = above != NULL ? above->at[i] : i;
-        const FrRay *ray = &paths->rays[slot];
-        if (ray->photon == FR_NONE) {
-            continue;
+}
+
+enum { AHEAD = 24 }; ///< rays that are fetched from memory before they are needed
+
+static inline void fetch(const FrRay *ray) {
+    __builtin_prefetch(ray);
+    __builtin_prefetch(&ray->bounce); // a ray may lie in two lines of the cache
+}
+
+static void sieve_litter(const Sieving *sieving, const Litter *litter) {
+    const FrOctree *tree = sieving->tree;
+    const FrCell *above = cell_at(tree, litter->parent);
+    bool is_root = litter->parent == 0;
+    const uint32_t *slots = is_root ? sieving->slots : above->rays.at;
+    uint32_t count = is_root ? sieving->slot_count : above->rays.count;
+    float quarter = (float)(0.25 * fr_octree_cell_width(tree, above->level));
+    double middle[3];
+    FrSegments segments;
+    uint32_t held[FR_SEGMENTS];
+    int32_t octants[FR_SEGMENTS];
+    middle_of(tree, above, middle);
+    for (uint32_t i = litter->begin; i < count;) {
+        uint32_t n = 0;
+        for (; i < count && n < FR_SEGMENTS; i++) {
+            uint32_t slot = slots != NULL ? slots[i] : i;
+            const FrRay *ray = &sieving->paths->rays[slot];
+            if (slots != NULL && i + AHEAD < count) {
+                fetch(&sieving->paths->rays[slots[i + AHEAD]]);
+            }
+            if (ray->photon != FR_NONE) {
+                fr_segments_set(&segments, n, ray, fr_octree_reach(tree, ray), middle, quarter);
+                held[n++] = slot;
+            }
         }
-        Line line = line_of(ray, fr_octree_reach(tree, ray));
-        for (uint32_t k = 0; k < litter->count; k++) {
-            if (passes(&boxes[k], &line)) {
-                fr_slots_push(&found[k], slot);
+        fr_segments_octants(&segments, n, quarter, octants);
+        for (uint32_t k = 0; k < n; k++) {
+            for (uint32_t bits = (uint32_t)octants[k] & litter->children; bits != 0;
+                 bits &= bits - 1) {
+                FrCell *child = cell_at(tree, above->child[g_bit_nth_lsf(bits, -1)]);
+                fr_slots_push(&child->rays, held[k]);
             }
         }
     }
-    for (uint32_t k = 0; k < litter->count; k++) {
-        cell_at(tree, litter->cells[k])->rays = found[k];
-    }
 }
 
-static void fill_litters(void *data, size_t begin, size_t end, int worker) {
+static void sieve_litters(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
-    const Filling *filling = data;
+    const Sieving *sieving = data;
     for (size_t i = begin; i < end; i++) {
-        fill_litter(filling->tree, &filling->litters[i], filling->paths);
+        sieve_litter(sieving, &sieving->litters[i]);
     }
 }
 
-static int compare_by_parent(const void *a, const void *b, void *user) {
-    const FrOctree *tree = user;
-    const FrCell *left = cell_at(tree, *(const uint32_t *)a);
-    const FrCell *right = cell_at(tree, *(const uint32_t *)b);
+// Level by level, as the list of a cell must be whole before its children are filled from it.
+static void sieve(FrOctree *tree, const FrPaths *paths, const uint32_t *slots, uint32_t slot_count,
+                  const GArray *litters, FrPool *pool) {
+    for (guint next = 0, end; next < litters->len; next = end) {
+        const Litter *first = &g_array_index(litters, Litter, next);
+        for (end = next + 1;
+             end < litters->len && g_array_index(litters, Litter, end).level == first->level;) {
+            end++;
+        }
+        Sieving sieving = {tree, paths, first, slots, slot_count};
+        fr_parallel_for(pool, end - next, 1, sieve_litters, &sieving, NULL);
+    }
+}
+
+static int compare_litters(const void *a, const void *b) {
+    const Litter *left = a, *right = b;
     if (left->level != right->level) {
         return left->level < right->level ? -1 : 1;
     }
     return left->parent < right->parent ? -1 : left->parent > right->parent;
 }
 
-// The next cells of one level, in litters; `*next` is moved on.
-static GArray *take_level(const FrOctree *tree, guint *next) {
-    GArray *litters = g_array_new(FALSE, FALSE, sizeof(Litter));
-    const GArray *cells = tree->unfilled;
-    uint16_t level = cell_at(tree, g_array_index(cells, uint32_t, *next))->level;
-    Litter litter = {.count = 0};
-    for (; *next < cells->len; ++*next) {
-        uint32_t index = g_array_index(cells, uint32_t, *next);
-        const FrCell *cell = cell_at(tree, index);
-        if (cell->level != level) {
-            break;
-        }
-        if (litter.count > 0 &&
-            (litter.parent != cell->parent || litter.count == CHILDREN_AT_ONCE)) {
-            g_array_append_val(litters, litter);
-            litter.count = 0;
-        }
-        litter.parent = cell->parent;
-        litter.cells[litter.count++] = index;
-    }
-    g_array_append_val(litters, litter);
-    return litters;
-}
-
 void fr_octree_fill(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
-    g_array_sort_with_data(tree->unfilled, compare_by_parent, tree);
-    for (guint next = 0; next < tree->unfilled->len;) {
-        GArray *litters = take_level(tree, &next);
-        Filling filling = {tree, paths, (const Litter *)(void *)litters->data};
-        fr_parallel_for(pool, litters->len, 1, fill_litters, &filling, NULL);
-        g_array_unref(litters);
+    GArray *litters = g_array_new(FALSE, FALSE, sizeof(Litter));
+    for (guint i = 0; i < tree->unfilled->len; i++) {
+        uint32_t index = g_array_index(tree->unfilled, uint32_t, i);
+        FrCell *cell = cell_at(tree, index);
+        const FrCell *above = cell_at(tree, cell->parent);
+        Litter litter = {.parent = cell->parent, .level = above->level};
+        for (uint32_t k = 0; k < 8; k++) {
+            litter.children |= above->child[k] == index ? 1u << k : 0;
+        }
+        cell->rays.count = 0;
+        g_array_append_val(litters, litter);
     }
+    g_array_sort(litters, compare_litters);
+    guint kept = 0;
+    for (guint i = 0; i < litters->len; i++) {
+        const Litter *litter = &g_array_index(litters, Litter, i);
+        Litter *last = kept > 0 ? &g_array_index(litters, Litter, kept - 1) : NULL;
+        if (last != NULL && last->parent == litter->parent) {
+            last->children |= litter->children;
+        } else {
+            g_array_index(litters, Litter, kept++) = *litter;
+        }
+    }
+    g_array_set_size(litters, kept);
+    sieve(tree, paths, NULL, paths->count, litters, pool);
+    g_array_unref(litters);
     g_array_set_size(tree->unfilled, 0);
 }
 
@@ -267,36 +251,59 @@ void fr_octree_prune(FrOctree *tree) {
     }
 }
 
+/// The cells, and which rays have changed.
+typedef struct Dropping {
+    const FrOctree *tree;
+    const uint64_t *stale; ///< a bit for each slot
+} Dropping;
+
 // Every filled cell drops what has changed.
 static void drop_stale(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
-    const Filling *filling = data;
+    const Dropping *dropping = data;
     for (size_t i = begin; i < end; i++) {
-        FrSlots *rays = &cell_at(filling->tree, (uint32_t)i)->rays;
+        FrSlots *rays = &cell_at(dropping->tree, (uint32_t)i)->rays;
         uint32_t kept = 0;
         for (uint32_t k = 0; k < rays->count; k++) {
-            if (!filling->paths->rays[rays->at[k]].is_stale) {
-                rays->at[kept++] = rays->at[k];
-            }
+            uint32_t slot = rays->at[k];
+            rays->at[kept] = slot;
+            kept += (dropping->stale[slot / 64] >> slot % 64 & 1) == 0;
         }
         rays->count = kept;
     }
 }
 
-// As many calls deep as the tree has levels.
-static void insert(FrOctree *tree, uint32_t index, const Line *line, uint32_t slot) {
-    const FrCell *cell = cell_at(tree, index);
-    for (int i = 0; i < 8; i++) {
-        if (cell->child[i] == FR_NONE) {
-            continue;
-        }
-        FrCell *child = cell_at(tree, cell->child[i]);
-        Box box = box_of(tree, child);
-        if (passes(&box, line)) {
-            fr_slots_push(&child->rays, slot);
-            insert(tree, cell->child[i], line, slot);
+static void drop_all_stale(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
+    const GArray *changed[2] = {paths->fresh, paths->free_slots};
+    uint64_t *stale = g_new0(uint64_t, paths->count / 64 + 1);
+    for (int a = 0; a < 2; a++) {
+        for (guint i = 0; i < changed[a]->len; i++) {
+            uint32_t slot = g_array_index(changed[a], uint32_t, i);
+            stale[slot / 64] |= (uint64_t)paths->rays[slot].is_stale << slot % 64;
         }
     }
+    Dropping dropping = {tree, stale};
+    fr_parallel_for(pool, tree->cells->len, 16, drop_stale, &dropping, NULL);
+    g_free(stale);
+}
+
+// The rays that are new go down from the root; of the other cells' lists they are the end.
+static void add_fresh(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
+    GArray *litters = g_array_new(FALSE, FALSE, sizeof(Litter));
+    for (guint i = 0; i < tree->cells->len; i++) {
+        const FrCell *cell = cell_at(tree, i);
+        Litter litter = {.parent = i, .level = cell->level, .begin = cell->rays.count};
+        for (uint32_t k = 0; k < 8 && !cell->is_free; k++) {
+            litter.children |= cell->child[k] != FR_NONE ? 1u << k : 0;
+        }
+        if (litter.children != 0) {
+            g_array_append_val(litters, litter);
+        }
+    }
+    g_array_sort(litters, compare_litters);
+    sieve(tree, paths, (const uint32_t *)(void *)paths->fresh->data, paths->fresh->len, litters,
+          pool);
+    g_array_unref(litters);
 }
 
 void fr_octree_update(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
@@ -307,18 +314,9 @@ void fr_octree_update(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
             }
         }
         fr_octree_fill(tree, paths, pool);
-        return;
-    }
-    if (tree->cells->len <= 1) {
-        return;
-    }
-    Filling filling = {.tree = tree, .paths = paths};
-    fr_parallel_for(pool, tree->cells->len, 16, drop_stale, &filling, NULL);
-    for (guint i = 0; i < paths->fresh->len; i++) {
-        uint32_t slot = g_array_index(paths->fresh, uint32_t, i);
-        const FrRay *ray = &paths->rays[slot];
-        Line line = line_of(ray, fr_octree_reach(tree, ray));
-        insert(tree, 0, &line, slot);
+    } else if (tree->cells->len > 1 && paths->fresh->len + paths->free_slots->len > 0) {
+        drop_all_stale(tree, paths, pool);
+        add_fresh(tree, paths, pool);
     }
 }
 

@@ -55,6 +55,40 @@ static void test_brute_force(void) {
     test_scene_free(test);
 }
 
+// Rays that come from so far that floats in the room's coordinates cannot tell where they pass.
+static void test_far_lamp(void) {
+    FrContext context = fr_context_default();
+    TestScene *test = test_scene_new();
+    add_leaves(test, 40, 4, (vec3s){{-0.7f, -0.7f, -0.7f}}, (vec3s){{1.4f, 1.4f, 1.4f}}, 0.1f,
+               alike(0.1f, 0, 0.2f, 0));
+    add_lamp(test, (FrLamp){.kind = FR_LAMP_SPOT,
+                            .power = 2,
+                            .position = {{30000, 20000, 10000}},
+                            .direction = {{-3, -2, -1}},
+                            .angle = 5e-5f});
+    FrDensityParams params = fr_density_default();
+    params.photons = 20000;
+    params.distance = 0.05;
+    FrLight *light = light_of(&params, test, &context);
+    const FrDensity *density = (const FrDensity *)(void *)light;
+    FrEstimator how = fr_density_estimator(density);
+    uint64_t samples = 0;
+    for (uint32_t i = 0; i < POINTS; i++) {
+        FrKey key = fr_key_child(fr_key_root(9), i);
+        vec3s at;
+        for (uint32_t c = 0; c < 3; c++) {
+            at.raw[c] = (float)(0.9 * fr_random_signed(key, 1, c));
+        }
+        FrLightAnswer answer = ask(light, at, &context);
+        FrLightAnswer all = fr_estimate_from_all(density->paths, &how, at);
+        g_assert_cmpint(memcmp(&answer, &all, sizeof all), ==, 0);
+        samples += all.samples;
+    }
+    g_assert_cmpuint(samples, >, 300);
+    fr_light_free(light);
+    test_scene_free(test);
+}
+
 // Every ray a cell refers to passes through it, and of the rays that pass none is missing: sampled
 // along each ray.
 static void test_references(void) {
@@ -140,6 +174,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/light/octree/answers are those of a look at all rays", test_brute_force);
     g_test_add_func("/light/octree/a cell refers to all rays that pass through it",
                     test_references);
+    g_test_add_func("/light/octree/rays from very far away are found", test_far_lamp);
     g_test_add_func("/light/octree/memory follows the points that were asked for", test_memory);
     return g_test_run();
 }
