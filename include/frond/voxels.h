@@ -1,0 +1,108 @@
+/// @file voxels.h
+/// Space in cells that know what stands in them: 4096³ cells of which only the bricks of 8³ that
+/// hold something exist.
+///
+/// A cell is free, solid (an obstacle), or owned: the number of a branch. Free bits of a brick fill
+/// one cache line, so most questions touch no more. In a round of proposals a cell can also be
+/// *claimed*: the smallest number that asks for it gets it, in whatever order they ask.
+#pragma once
+
+#include "frond/context.h"
+#include "frond/vector.h"
+
+enum {
+    FR_VOXELS_WIDTH = 4096, ///< cells along each axis
+    FR_BRICK_WIDTH = 8,
+    FR_BRICK_CELLS = 512,
+    FR_WALK_CELLS = 256, ///< longest segment that fr_voxels_walk() is asked for
+};
+
+/// Owners that are no branch.
+#define FR_VOXEL_FREE UINT32_MAX
+#define FR_VOXEL_SOLID (UINT32_MAX - 1)
+#define FR_VOXEL_GROUND (UINT32_MAX - 2)
+
+typedef struct FrCell {
+    int16_t at[3]; ///< 0 … FR_VOXELS_WIDTH − 1
+} FrCell;
+
+/// 8³ cells. Bit y·8 + x of word z.
+typedef struct FrBrick {
+    uint64_t taken[8];  ///< owned or solid
+    uint64_t solid[8];  ///< an obstacle
+    uint64_t ground[8]; ///< … that roots pass
+    uint32_t *owner;    ///< by z·64 + y·8 + x; NULL: no branches in here
+    uint32_t *claim;    ///< likewise; FR_NONE: unclaimed
+} FrBrick;
+
+/// Bricks hang in blocks of 8³, blocks in a table of 64³.
+typedef struct FrVoxels {
+    double origin[3]; ///< lowest corner, m
+    double cell;      ///< m
+    FrBrick ***top;   ///< [64³] blocks [8³] bricks; NULL where there is nothing
+    uint64_t bytes;   ///< held
+    GPtrArray *slabs; ///< private: memory of bricks and blocks
+    size_t slab_used, slab_size;
+} FrVoxels;
+
+FR_API FrVoxels *fr_voxels_new(const double origin[3], double cell);
+FR_API void fr_voxels_free(FrVoxels *voxels);
+/// The brick of a cell, made if there is none. Not thread-safe.
+FR_API FrBrick *fr_voxels_make(FrVoxels *voxels, FrCell cell);
+/// The same with room for owners and claims.
+FR_API FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell);
+/// Cells from the one of `from` to the one of `to`, in order, each beside the one before
+/// (Amanatides and Woo 1987). Returns how many. Both ends must be inside, and no more than
+/// FR_WALK_CELLS / 3 cells apart.
+FR_API uint32_t fr_voxels_walk(const FrVoxels *voxels, const double from[3], const double to[3],
+                               FrCell *cells);
+/// Makes every cell solid that a triangle touches. Parts outside are left out.
+FR_API void fr_voxels_add_triangles(FrVoxels *voxels, const vec3s *positions,
+                                    const uint32_t *indices, uint32_t index_count, bool is_ground);
+/// Makes all obstacles go, and keeps what is owned.
+FR_API void fr_voxels_clear_solid(FrVoxels *voxels);
+/// Calls `visit` for every brick that has owners, in order of its place.
+FR_API void fr_voxels_each_owned(const FrVoxels *voxels,
+                                 void (*visit)(void *data, FrCell first, FrBrick *brick),
+                                 void *data);
+
+/// The cell of a point; false if it lies outside.
+static inline bool fr_voxels_cell(const FrVoxels *voxels, const double at[3], FrCell *cell) {
+    for (int axis = 0; axis < 3; axis++) {
+        double where = (at[axis] - voxels->origin[axis]) / voxels->cell;
+        if (!(where >= 0 && where < FR_VOXELS_WIDTH)) {
+            return false;
+        }
+        cell->at[axis] = (int16_t)where;
+    }
+    return true;
+}
+
+/// The brick of a cell; NULL if there is none.
+static inline FrBrick *fr_voxels_brick(const FrVoxels *voxels, FrCell cell) {
+    unsigned x = (unsigned)cell.at[0], y = (unsigned)cell.at[1], z = (unsigned)cell.at[2];
+    FrBrick **block = voxels->top[((z >> 6) * 64 + (y >> 6)) * 64 + (x >> 6)];
+    return block == NULL ? NULL : block[((z >> 3 & 7) * 8 + (y >> 3 & 7)) * 8 + (x >> 3 & 7)];
+}
+
+static inline unsigned fr_voxels_bit(FrCell cell) {
+    return ((unsigned)cell.at[1] & 7) * 8 + ((unsigned)cell.at[0] & 7);
+}
+
+/// Index of a cell within its brick.
+static inline unsigned fr_voxels_index(FrCell cell) {
+    return ((unsigned)cell.at[2] & 7) * 64 + fr_voxels_bit(cell);
+}
+
+/// What stands in a cell.
+static inline uint32_t fr_voxels_owner(const FrVoxels *voxels, FrCell cell) {
+    const FrBrick *brick = fr_voxels_brick(voxels, cell);
+    unsigned bit = fr_voxels_bit(cell), layer = (unsigned)cell.at[2] & 7;
+    if (brick == NULL || (brick->taken[layer] >> bit & 1) == 0) {
+        return FR_VOXEL_FREE;
+    }
+    if (brick->solid[layer] >> bit & 1) {
+        return brick->ground[layer] >> bit & 1 ? FR_VOXEL_GROUND : FR_VOXEL_SOLID;
+    }
+    return brick->owner[fr_voxels_index(cell)];
+}

@@ -1,0 +1,112 @@
+// Direction and length of the next internode.
+//
+// Beneš, Andrysco, Šťava 2009, section 3.5: v' = normalize(v + s·light + g·up + p·particles). The
+// text says that branches turn against gravity, its formula adds gravity; the text is followed.
+// Length follows the light: buds in shade search, buds in light branch (section 3.2).
+#include "growth/engine.h"
+
+#include <cglm/struct.h>
+#include <math.h>
+
+/// What gravity does to an axis that stands like this.
+static vec3s gravity_pull(const FrGrowth *growth, const FrSpeciesParams *params,
+                          const FrOrderParams *order, const FrGrownAxis *axis, vec3s direction) {
+    float strength = (float)params->gravitropism;
+    float rise = glms_vec3_dot(direction, growth->up);
+    switch (order->bearing) {
+    case FR_BEARING_LEVEL: // back to the horizontal, and twice as firmly as others rise
+        return glms_vec3_scale(growth->up, -2 * fabsf(strength) * rise);
+    case FR_BEARING_BENT: { // less and less upright
+        float part = 1 - (float)axis->internodes / 5;
+        return glms_vec3_scale(growth->up, fabsf(strength) * (part < -1 ? -1 : part));
+    }
+    default:
+        return glms_vec3_scale(growth->up, strength);
+    }
+}
+
+/// A unit vector across `direction`, by chance.
+static vec3s chance_across(FrKey key, uint32_t purpose, uint32_t k, vec3s direction, vec3s side) {
+    float angle = (float)(2 * G_PI * fr_random(key, purpose, k));
+    vec3s other = glms_vec3_cross(direction, side);
+    return glms_vec3_add(glms_vec3_scale(side, cosf(angle)), glms_vec3_scale(other, sinf(angle)));
+}
+
+/// Not further from `from` than `limit`.
+static vec3s limited(vec3s from, vec3s to, double limit) {
+    float cosine = glms_vec3_dot(from, to);
+    if (limit >= G_PI || cosine >= (float)cos(limit)) {
+        return to;
+    }
+    vec3s across = glms_vec3_sub(to, glms_vec3_scale(from, cosine));
+    float length = glms_vec3_norm(across);
+    if (length < 1e-6f) {
+        return from;
+    }
+    return glms_vec3_add(glms_vec3_scale(from, (float)cos(limit)),
+                         glms_vec3_scale(across, (float)sin(limit) / length));
+}
+
+vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud,
+                          uint32_t trial) {
+    const FrReadySpecies *species = fr_species_of(growth, plant);
+    const FrSpeciesParams *params = &species->params;
+    const FrGrownAxis *axis = &plant->axes[bud->axis];
+    const FrOrderParams *order = fr_order_of(species, bud->row);
+    vec3s sum = bud->direction;
+    sum = glms_vec3_add(sum, glms_vec3_scale(bud->brightest, (float)params->phototropism));
+    sum = glms_vec3_add(sum, gravity_pull(growth, params, order, axis, bud->direction));
+    sum = glms_vec3_add(sum, glms_vec3_scale(bud->attraction, (float)params->attraction));
+    if (params->wander > 0) {
+        double turn = fr_random_normal(bud->key, FR_CHANCE_TURN, axis->internodes) * params->wander;
+        vec3s across =
+            chance_across(bud->key, FR_CHANCE_ROLL, axis->internodes, bud->direction, bud->side);
+        sum = glms_vec3_add(sum, glms_vec3_scale(across, (float)tan(CLAMP(turn, -1.2, 1.2))));
+    }
+    if (trial > 0) { // Greene 1989: others around the wanted one
+        double angle = params->trial_angle *
+                       (0.5 + fr_random(bud->key, FR_CHANCE_TRIAL, axis->internodes * 64 + trial));
+        vec3s across = chance_across(bud->key, FR_CHANCE_TRIAL, axis->internodes * 64 + 32 + trial,
+                                     bud->direction, bud->side);
+        float size = glms_vec3_norm(sum);
+        sum = glms_vec3_add(sum, glms_vec3_scale(across, size * (float)tan(MIN(angle, 1.4))));
+    }
+    float length = glms_vec3_norm(sum);
+    if (length < 1e-4f) {
+        return bud->direction;
+    }
+    return limited(bud->direction, glms_vec3_scale(sum, 1 / length), params->turn_limit);
+}
+
+void fr_growth_turn(FrLiveBud *bud, vec3s direction, float twist) {
+    vec3s across =
+        glms_vec3_sub(bud->side, glms_vec3_scale(direction, glms_vec3_dot(bud->side, direction)));
+    float length = glms_vec3_norm(across);
+    if (length < 1e-4f) {
+        across = fr_frame_left(fr_frame_from_heading(direction, bud->direction));
+        length = 1;
+    }
+    across = glms_vec3_scale(across, 1 / length);
+    vec3s other = glms_vec3_cross(direction, across);
+    bud->direction = direction;
+    bud->side = twist == 0 ? across
+                           : glms_vec3_add(glms_vec3_scale(across, cosf(twist)),
+                                           glms_vec3_scale(other, sinf(twist)));
+}
+
+double fr_growth_length(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud) {
+    const FrReadySpecies *species = fr_species_of(growth, plant);
+    const FrSpeciesParams *params = &species->params;
+    const FrGrownAxis *axis = &plant->axes[bud->axis];
+    double search = 1 + params->search * (1 - 2 * (double)bud->light);
+    double length = params->step * CLAMP(search, params->min_length, params->max_length);
+    length *= pow(params->step_ratio, axis->order) * fr_order_of(species, bud->row)->length;
+    double control = params->apical_control;
+    if (control > 1) {
+        length *= pow(control, -(double)axis->order);
+    } else if (control < 1) {
+        length *= pow(control, (double)plant->max_order - (double)axis->order);
+    }
+    double noise = fr_random_normal(bud->key, FR_CHANCE_LENGTH, axis->internodes);
+    return length * CLAMP(1 + params->length_noise * noise, 0.4, 2);
+}

@@ -1,0 +1,173 @@
+/// @file engine.h
+/// The state of a growth, shared by the files of this folder: columns of nodes, axes and live buds
+/// for each plant, and the world they stand in.
+#pragma once
+
+#include "frond/growth.h"
+#include "frond/voxels.h"
+
+/// What chance is asked for; part of the key of every draw.
+enum {
+    FR_CHANCE_BIRTH = 1,
+    FR_CHANCE_LENGTH,
+    FR_CHANCE_TURN,
+    FR_CHANCE_TRIAL,
+    FR_CHANCE_CLAIM,
+    FR_CHANCE_WAKE,
+    FR_CHANCE_ROLL,
+    FR_CHANCE_PARTICLE,
+    FR_CHANCE_LEAF,
+    FR_CHANCE_LATERALS,
+};
+
+typedef enum FrLiveState {
+    FR_LIVE_GROWING, ///< apex of its axis
+    FR_LIVE_ASLEEP,  ///< beside a node, or below an ended apex
+    FR_LIVE_DONE,    ///< dead: leaves the list at the end of the step
+} FrLiveState;
+
+/// A live bud.
+typedef struct FrLiveBud {
+    FrKey key;
+    uint32_t node;      ///< at whose tip it sits; FR_NONE: on the ground
+    uint32_t axis;      ///< whose apex it is; asleep: the axis beside which it sits
+    vec3s direction;    ///< unit: that of its last internode, or the one it will begin with
+    vec3s side;         ///< unit, perpendicular to it: from where divergence counts
+    vec3s brightest;    ///< unit: to the light; 0 if there is none
+    vec3s attraction;   ///< unit: to its particles; 0 if there are none
+    float light;        ///< 0 to 1
+    float vigour;       ///< of the shoot that it makes in this step
+    float length;       ///< of the shoot's internodes, m
+    uint16_t age;       ///< steps since it came to be, or woke
+    uint16_t place;     ///< asleep: internodes of the axis below it
+    uint8_t state;      ///< FrLiveState
+    uint8_t row;        ///< order of the species that its axis is built by
+    uint8_t shoot;      ///< internodes to make in this step
+    uint8_t is_relay;   ///< follows an ended axis
+    uint8_t is_lost;    ///< lost its cells to another bud
+    uint8_t is_reached; ///< has reached a particle
+} FrLiveBud;
+
+/// A branch.
+typedef struct FrGrownAxis {
+    FrKey key;
+    uint32_t bearer;      ///< node; FR_NONE: the ground
+    uint32_t first, last; ///< nodes, FR_NONE before the first
+    uint32_t owner;       ///< its number in the voxels
+    uint32_t internodes;  ///< so far
+    uint16_t birth;       ///< step
+    uint8_t row;          ///< order of the species it is built by
+    uint8_t order;        ///< botanical
+    bool is_growing;      ///< has an apex
+    bool is_shed;
+} FrGrownAxis;
+
+/// Nodes of one plant, parents before children.
+typedef struct FrGrownNodes {
+    uint32_t count, capacity;
+    uint32_t *parent;
+    uint32_t *axis;
+    vec3s *at; ///< tip, relative to the seed
+    uint16_t *birth;
+    uint8_t *light; ///< at birth and as long as a bud sits there, 255 full
+    uint8_t *is_shed;
+    float *wood; ///< r^e of branches that have fallen off here, in tips
+} FrGrownNodes;
+
+typedef struct FrGrownPlant {
+    FrSeed seed;
+    FrKey key;
+    FrGrownNodes nodes;
+    FrGrownAxis *axes;
+    uint32_t axis_count, axis_capacity;
+    FrLiveBud *buds;
+    uint32_t bud_count, bud_capacity;
+    uint8_t max_order;                          ///< of its axes
+    bool is_left_out;                           ///< its seed has no place to stand
+    uint32_t born, shed, collisions, contested; ///< in this step
+} FrGrownPlant;
+
+/// A species made ready.
+typedef struct FrReadySpecies {
+    FrSpeciesParams params; ///< own copy
+    FrOrderParams orders[FR_MAX_ORDERS];
+    uint32_t order_count; ///< ≥ 1
+    FrMaterial *bark, *leaf;
+    const FrDistance *envelope;
+    char *name;
+} FrReadySpecies;
+
+/// Whose number an owner of voxels is.
+typedef struct FrOwner {
+    uint32_t plant, axis;
+} FrOwner;
+
+typedef struct FrProposal FrProposal;
+
+struct FrGrowth {
+    FrGrowthParams params;
+    FrReadySpecies *species;
+    uint32_t species_count;
+    vec3s up; ///< against gravity
+    FrVoxels *voxels;
+    FrGrownPlant *plants;
+    uint32_t plant_count;
+    FrOwner *owners; ///< by number in the voxels
+    uint32_t owner_count, owner_capacity;
+    // Memory of a step, kept from step to step.
+    FrProposal *proposals;
+    uint32_t *by_rank; ///< proposals in the order of their keys
+    uint32_t *open;
+    uint64_t *sort_keys;
+    uint32_t proposal_capacity;
+    uint64_t step;
+    FrGrowthStats stats;
+};
+
+static inline const FrReadySpecies *fr_species_of(const FrGrowth *growth,
+                                                  const FrGrownPlant *plant) {
+    return &growth->species[plant->seed.species];
+}
+
+static inline const FrOrderParams *fr_order_of(const FrReadySpecies *species, uint32_t row) {
+    return &species->orders[MIN(row, species->order_count - 1)];
+}
+
+// ---- species.c --------------------------------------------------------------------------------
+FrReadySpecies fr_species_make_ready(const FrSpecies *species);
+void fr_species_clear_ready(FrReadySpecies *ready);
+
+// ---- plant_store.c ----------------------------------------------------------------------------
+uint32_t fr_grown_add_node(FrGrownPlant *plant, uint32_t parent, uint32_t axis, vec3s at);
+uint32_t fr_grown_add_axis(FrGrownPlant *plant, uint32_t bearer, uint8_t row, FrKey key);
+FrLiveBud *fr_grown_add_bud(FrGrownPlant *plant);
+void fr_grown_clear(FrGrownPlant *plant);
+FrDigest fr_grown_digest(const FrGrownPlant *plant);
+uint64_t fr_grown_bytes(const FrGrownPlant *plant);
+
+// ---- growth.c ---------------------------------------------------------------------------------
+/// Counts anew what there is.
+void fr_growth_count(FrGrowth *growth);
+/// True if a node bears leaves now.
+bool fr_grown_is_leafy(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t node);
+
+// ---- direction.c, sprout.c, wake.c --------------------------------------------------------------
+/// Direction of a growing bud's next internode; trials above 0 lie around the wanted one.
+vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud,
+                          uint32_t trial);
+/// Turns a bud to a unit direction, and about itself.
+void fr_growth_turn(FrLiveBud *bud, vec3s direction, float twist);
+/// Length of the next internode, m.
+double fr_growth_length(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud);
+/// Adds the buds of a node that growing bud `index` has just made.
+void fr_growth_sprout(const FrGrowth *growth, FrGrownPlant *plant, uint32_t index, uint32_t node);
+/// Makes a sleeping bud the apex of a new axis.
+void fr_growth_wake_bud(FrGrownPlant *plant, FrLiveBud *bud, uint64_t step);
+/// Ages all buds and wakes those that may.
+void fr_growth_wake(const FrGrowth *growth, FrGrownPlant *plant);
+
+// ---- envelope.c -------------------------------------------------------------------------------
+/// True if a place, relative to the seed, is within the species' envelope.
+bool fr_envelope_holds(const FrReadySpecies *species, vec3s at, vec3s up);
+/// Radius of an outline at a height; < 0 above and below it.
+double fr_envelope_radius(const FrPoints *outline, double height);

@@ -1,0 +1,224 @@
+// The world of a growth: made, seeded, changed, counted.
+#include "growth/propose.h"
+
+#include <cglm/struct.h>
+#include <math.h>
+#include <string.h>
+
+static vec3s up_of(const FrGrowthParams *params) {
+    vec3s up = glms_vec3_negate(params->gravity);
+    return glms_vec3_norm(up) > 0 ? glms_vec3_normalize(up) : (vec3s){{0, 0, 1}};
+}
+
+static FrStatus check_setup(const FrGrowthSetup *setup, const FrContext *context) {
+    const FrGrowthParams *params = &setup->params;
+    for (int axis = 0; axis < 3; axis++) {
+        double size = (double)params->max.raw[axis] - (double)params->min.raw[axis];
+        if (!(size > 0) || size / params->cell >= FR_VOXELS_WIDTH) {
+            fr_diags_add(context->diags, FR_ERROR, "arena-cells", (FrSpan){0},
+                         "the arena is %g m wide, but must be above 0 and below %d cells of %g m",
+                         size, FR_VOXELS_WIDTH, params->cell);
+            return FR_ERR_DOCUMENT;
+        }
+    }
+    return FR_OK;
+}
+
+static void take_species(FrGrowth *growth, const FrGrowthSetup *setup) {
+    growth->species_count = setup->species_count;
+    growth->species = g_new(FrReadySpecies, setup->species_count);
+    for (uint32_t i = 0; i < setup->species_count; i++) {
+        growth->species[i] = fr_species_make_ready(&setup->species[i]);
+    }
+}
+
+static void drop_species(FrGrowth *growth) {
+    for (uint32_t i = 0; i < growth->species_count; i++) {
+        fr_species_clear_ready(&growth->species[i]);
+    }
+    g_free(growth->species);
+}
+
+static void take_obstacles(FrGrowth *growth, const FrGrowthSetup *setup) {
+    for (uint32_t i = 0; i < setup->obstacle_count; i++) {
+        const FrGrowthObstacle *obstacle = &setup->obstacles[i];
+        fr_voxels_add_triangles(growth->voxels, obstacle->positions, obstacle->indices,
+                                obstacle->index_count, obstacle->is_ground);
+    }
+}
+
+FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context, FrGrowth **growth) {
+    *growth = NULL;
+    FrStatus status = check_setup(setup, context);
+    if (status != FR_OK) {
+        return status;
+    }
+    FrGrowth *made = g_new0(FrGrowth, 1);
+    made->params = setup->params;
+    made->up = up_of(&setup->params);
+    take_species(made, setup);
+    double origin[3];
+    for (int axis = 0; axis < 3; axis++) {
+        origin[axis] = (double)setup->params.min.raw[axis];
+    }
+    made->voxels = fr_voxels_new(origin, setup->params.cell);
+    take_obstacles(made, setup);
+    *growth = made;
+    return FR_OK;
+}
+
+void fr_growth_free(FrGrowth *growth) {
+    if (growth == NULL) {
+        return;
+    }
+    for (uint32_t i = 0; i < growth->plant_count; i++) {
+        fr_grown_clear(&growth->plants[i]);
+    }
+    drop_species(growth);
+    fr_voxels_free(growth->voxels);
+    g_free(growth->plants);
+    g_free(growth->owners);
+    g_free(growth->proposals);
+    g_free(growth->by_rank);
+    g_free(growth->open);
+    g_free(growth->sort_keys);
+    g_free(growth);
+}
+
+FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup, const FrContext *context) {
+    FrStatus status = check_setup(setup, context);
+    if (status != FR_OK) {
+        return status;
+    }
+    FR_ASSERT(setup->species_count == growth->species_count);
+    FR_ASSERT(setup->params.cell == growth->params.cell);
+    growth->params = setup->params;
+    growth->up = up_of(&setup->params);
+    drop_species(growth);
+    take_species(growth, setup);
+    fr_voxels_clear_solid(growth->voxels);
+    take_obstacles(growth, setup);
+    return FR_OK;
+}
+
+/// The one bud that a plant begins with.
+static void begin_plant(FrGrowth *growth, FrGrownPlant *plant) {
+    plant->key = fr_key_child(fr_key_root((uint64_t)growth->params.seed), plant->seed.id);
+    uint32_t axis = fr_grown_add_axis(plant, FR_NONE, 0, plant->key);
+    FrLiveBud *bud = fr_grown_add_bud(plant);
+    bud->key = plant->key;
+    bud->node = FR_NONE;
+    bud->axis = axis;
+    bud->direction = growth->up;
+    versors frame = fr_frame_from_heading(growth->up, (vec3s){{0, 1, 0}});
+    float around = (float)(2 * G_PI * fr_random(plant->key, FR_CHANCE_BIRTH, 0));
+    bud->side = glms_vec3_add(glms_vec3_scale(fr_frame_left(frame), cosf(around)),
+                              glms_vec3_scale(fr_frame_up(frame), sinf(around)));
+    bud->light = 1;
+    bud->state = FR_LIVE_GROWING;
+}
+
+static bool has_place(const FrGrowth *growth, const FrSeed *seed) {
+    FrCell cell;
+    for (int axis = 0; axis < 3; axis++) {
+        if (!(seed->at[axis] >= (double)growth->params.min.raw[axis] &&
+              seed->at[axis] <= (double)growth->params.max.raw[axis])) {
+            return false;
+        }
+    }
+    return fr_voxels_cell(growth->voxels, seed->at, &cell) &&
+           fr_voxels_owner(growth->voxels, cell) != FR_VOXEL_SOLID;
+}
+
+FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t count,
+                             const FrContext *context) {
+    FrStatus status =
+        fr_limit_check(fr_count_add(growth->plant_count, count), context->limits.plants, "plants",
+                       "the growth", (FrSpan){0}, context->diags);
+    if (status != FR_OK) {
+        return status;
+    }
+    uint32_t first = growth->plant_count;
+    growth->plants = g_renew(FrGrownPlant, growth->plants, first + count);
+    memset(growth->plants + first, 0, count * sizeof *growth->plants);
+    growth->plant_count += count;
+    uint32_t left_out = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        FrGrownPlant *plant = &growth->plants[first + i];
+        FR_ASSERT(seeds[i].species < growth->species_count);
+        plant->seed = seeds[i];
+        plant->is_left_out = !has_place(growth, &seeds[i]);
+        left_out += plant->is_left_out;
+        if (!plant->is_left_out) {
+            begin_plant(growth, plant);
+        }
+    }
+    if (left_out > 0) {
+        fr_diags_add(context->diags, FR_WARNING, "seed-place", (FrSpan){0},
+                     "%u of %u seeds have no place to stand: outside the arena or in an obstacle",
+                     left_out, count);
+    }
+    fr_growth_count(growth);
+    return FR_OK;
+}
+
+bool fr_grown_is_leafy(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t node) {
+    const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
+    const FrGrownNodes *nodes = &plant->nodes;
+    return params->leaves > 0 && !nodes->is_shed[node] &&
+           growth->step < (uint64_t)nodes->birth[node] + (uint64_t)params->leaf_life &&
+           nodes->light[node] >= params->leaf_light * 255;
+}
+
+static void count_plant(const FrGrowth *growth, const FrGrownPlant *plant, FrGrowthStats *stats) {
+    const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
+    stats->plants += !plant->is_left_out;
+    for (uint32_t i = 0; i < plant->axis_count; i++) {
+        stats->axes += plant->axes[i].first != FR_NONE && !plant->axes[i].is_shed;
+    }
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        stats->nodes += !plant->nodes.is_shed[i];
+        stats->leaves += fr_grown_is_leafy(growth, plant, i) ? (uint64_t)params->leaves : 0;
+    }
+    for (uint32_t i = 0; i < plant->bud_count; i++) {
+        stats->active_buds += plant->buds[i].state == FR_LIVE_GROWING;
+        stats->dormant_buds += plant->buds[i].state == FR_LIVE_ASLEEP;
+    }
+    stats->born += plant->born;
+    stats->shed += plant->shed;
+    stats->collisions += plant->collisions;
+    stats->contested += plant->contested;
+    stats->digest += fr_grown_digest(plant); // a sum: the order of seeds has no say
+    stats->bytes += fr_grown_bytes(plant);
+}
+
+void fr_growth_count(FrGrowth *growth) {
+    FrGrowthStats *stats = &growth->stats;
+    double seconds = stats->seconds, light_seconds = stats->light_seconds;
+    *stats = (FrGrowthStats){.step = growth->step,
+                             .seconds = seconds,
+                             .light_seconds = light_seconds,
+                             .cells = growth->voxels->bytes};
+    for (uint32_t i = 0; i < growth->plant_count; i++) {
+        count_plant(growth, &growth->plants[i], stats);
+    }
+}
+
+FrGrowthStats fr_growth_stats(const FrGrowth *growth) {
+    return growth->stats;
+}
+
+uint32_t fr_growth_plant_count(const FrGrowth *growth) {
+    return growth->plant_count;
+}
+
+FrSeed fr_growth_seed(const FrGrowth *growth, uint32_t plant) {
+    FR_ASSERT(plant < growth->plant_count);
+    return growth->plants[plant].seed;
+}
+
+bool fr_growth_is_taken(const FrGrowth *growth, const double point[3]) {
+    FrCell cell;
+    return fr_voxels_cell(growth->voxels, point, &cell) &&
+           fr_voxels_owner(growth->voxels, cell) != FR_VOXEL_FREE;
+}

@@ -1,0 +1,101 @@
+// Columns of one growing plant. They only grow; compaction (shed.c) keeps their order.
+#include "growth/engine.h"
+
+#include <string.h>
+
+static uint32_t more(uint32_t capacity) {
+    return capacity < 16 ? 16 : capacity + capacity / 2;
+}
+
+static void grow_nodes(FrGrownNodes *nodes, uint32_t capacity) {
+    nodes->capacity = capacity;
+    nodes->parent = g_renew(uint32_t, nodes->parent, capacity);
+    nodes->axis = g_renew(uint32_t, nodes->axis, capacity);
+    nodes->at = g_renew(vec3s, nodes->at, capacity);
+    nodes->birth = g_renew(uint16_t, nodes->birth, capacity);
+    nodes->light = g_renew(uint8_t, nodes->light, capacity);
+    nodes->is_shed = g_renew(uint8_t, nodes->is_shed, capacity);
+    nodes->wood = g_renew(float, nodes->wood, capacity);
+}
+
+uint32_t fr_grown_add_node(FrGrownPlant *plant, uint32_t parent, uint32_t axis, vec3s at) {
+    FrGrownNodes *nodes = &plant->nodes;
+    if (nodes->count == nodes->capacity) {
+        grow_nodes(nodes, more(nodes->capacity));
+    }
+    uint32_t node = nodes->count++;
+    nodes->parent[node] = parent;
+    nodes->axis[node] = axis;
+    nodes->at[node] = at;
+    nodes->birth[node] = 0;
+    nodes->light[node] = 255;
+    nodes->is_shed[node] = 0;
+    nodes->wood[node] = 0;
+    FrGrownAxis *of = &plant->axes[axis];
+    if (of->first == FR_NONE) {
+        of->first = node;
+    }
+    of->last = node;
+    of->internodes++;
+    return node;
+}
+
+uint32_t fr_grown_add_axis(FrGrownPlant *plant, uint32_t bearer, uint8_t row, FrKey key) {
+    if (plant->axis_count == plant->axis_capacity) {
+        plant->axis_capacity = more(plant->axis_capacity);
+        plant->axes = g_renew(FrGrownAxis, plant->axes, plant->axis_capacity);
+    }
+    uint32_t order = bearer == FR_NONE ? 0 : plant->axes[plant->nodes.axis[bearer]].order + 1u;
+    plant->axes[plant->axis_count] = (FrGrownAxis){.key = key,
+                                                   .bearer = bearer,
+                                                   .first = FR_NONE,
+                                                   .last = FR_NONE,
+                                                   .owner = FR_NONE,
+                                                   .row = row,
+                                                   .order = (uint8_t)MIN(order, 255),
+                                                   .is_growing = true};
+    return plant->axis_count++;
+}
+
+FrLiveBud *fr_grown_add_bud(FrGrownPlant *plant) {
+    if (plant->bud_count == plant->bud_capacity) {
+        plant->bud_capacity = more(plant->bud_capacity);
+        plant->buds = g_renew(FrLiveBud, plant->buds, plant->bud_capacity);
+    }
+    FrLiveBud *bud = &plant->buds[plant->bud_count++];
+    memset(bud, 0, sizeof *bud); // padding too: digests read the bytes
+    return bud;
+}
+
+void fr_grown_clear(FrGrownPlant *plant) {
+    FrGrownNodes *nodes = &plant->nodes;
+    g_free(nodes->parent);
+    g_free(nodes->axis);
+    g_free(nodes->at);
+    g_free(nodes->birth);
+    g_free(nodes->light);
+    g_free(nodes->is_shed);
+    g_free(nodes->wood);
+    g_free(plant->axes);
+    g_free(plant->buds);
+    memset(plant, 0, sizeof *plant);
+}
+
+FrDigest fr_grown_digest(const FrGrownPlant *plant) {
+    const FrGrownNodes *nodes = &plant->nodes;
+    FrDigest digest = fr_digest(0, &plant->seed.id, sizeof plant->seed.id);
+    digest = fr_digest(digest, plant->seed.at, sizeof plant->seed.at);
+    digest = fr_digest(digest, nodes->parent, nodes->count * sizeof *nodes->parent);
+    digest = fr_digest(digest, nodes->at, nodes->count * sizeof *nodes->at);
+    digest = fr_digest(digest, nodes->birth, nodes->count * sizeof *nodes->birth);
+    digest = fr_digest(digest, nodes->light, nodes->count * sizeof *nodes->light);
+    digest = fr_digest(digest, nodes->is_shed, nodes->count * sizeof *nodes->is_shed);
+    digest = fr_digest(digest, nodes->wood, nodes->count * sizeof *nodes->wood);
+    return fr_digest(digest, plant->buds, plant->bud_count * sizeof *plant->buds);
+}
+
+uint64_t fr_grown_bytes(const FrGrownPlant *plant) {
+    enum { A_NODE = 4 + 4 + 12 + 2 + 1 + 1 + 4 };
+    return (uint64_t)plant->nodes.count * A_NODE + plant->axis_count * sizeof(FrGrownAxis) +
+           plant->bud_count * sizeof(FrLiveBud);
+}

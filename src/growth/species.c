@@ -1,0 +1,54 @@
+// A species made ready for growth: its orders are put together from the model, or from its own
+// rows, and its plain attributes.
+#include "growth/engine.h"
+
+#include <math.h>
+#include <string.h>
+
+/// The one order of an open architecture: what the attributes of the species say.
+static FrOrderParams open_order(const FrSpeciesParams *params) {
+    FrOrderParams order;
+    fr_params_init(fr_order_table(), &order);
+    order.tier = params->laterals;
+    order.angle = params->branching_angle;
+    order.divergence = params->divergence;
+    return order;
+}
+
+/// Tiers and angles of a model change with the attributes of the species, which say 2 and 45° for
+/// the model as it is.
+static void scale_order(const FrSpeciesParams *params, FrOrderParams *order) {
+    if (order->tier > 0) {
+        int64_t tier = (int64_t)lround((double)order->tier * (double)params->laterals / 2);
+        order->tier = CLAMP(tier, params->laterals > 0 ? 1 : 0, 8);
+    }
+    double angle = order->angle * params->branching_angle / (G_PI / 4);
+    order->angle = MIN(angle, 175 * G_PI / 180);
+}
+
+FrReadySpecies fr_species_make_ready(const FrSpecies *species) {
+    FrReadySpecies ready = {.bark = species->bark,
+                            .leaf = species->leaf,
+                            .envelope = species->envelope,
+                            .name = g_strdup(species->name)};
+    fr_params_copy(fr_species_table(), &ready.params, &species->params);
+    const FrSpeciesParams *params = &ready.params;
+    if (species->order_count > 0) {
+        ready.order_count = MIN(species->order_count, FR_MAX_ORDERS);
+        memcpy(ready.orders, species->orders, ready.order_count * sizeof(FrOrderParams));
+    } else if (params->model == FR_MODEL_OPEN) {
+        ready.order_count = 1;
+        ready.orders[0] = open_order(params);
+    } else {
+        ready.order_count = fr_species_model(params->model, ready.orders);
+        for (uint32_t row = 0; row < ready.order_count; row++) {
+            scale_order(params, &ready.orders[row]);
+        }
+    }
+    return ready;
+}
+
+void fr_species_clear_ready(FrReadySpecies *ready) {
+    fr_params_clear(fr_species_table(), &ready->params);
+    g_free(ready->name);
+}

@@ -1,0 +1,136 @@
+// Sparse voxels: bricks of 8³ cells in blocks of 8³ bricks in a table of 64³ blocks. Segments are
+// walked after Amanatides and Woo 1987, A Fast Voxel Traversal Algorithm for Ray Tracing.
+#include "frond/voxels.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TOP = 64 * 64 * 64, BLOCK = 512, SLAB = 1 << 18 };
+
+FrVoxels *fr_voxels_new(const double origin[3], double cell) {
+    FR_ASSERT(cell > 0);
+    FrVoxels *voxels = g_new0(FrVoxels, 1);
+    memcpy(voxels->origin, origin, sizeof voxels->origin);
+    voxels->cell = cell;
+    voxels->top = g_new0(FrBrick **, TOP);
+    voxels->bytes = TOP * sizeof(FrBrick **);
+    voxels->slabs = g_ptr_array_new_with_free_func(g_free);
+    return voxels;
+}
+
+void fr_voxels_free(FrVoxels *voxels) {
+    if (voxels != NULL) {
+        g_ptr_array_free(voxels->slabs, TRUE);
+        g_free(voxels->top);
+        g_free(voxels);
+    }
+}
+
+/// Zeroed memory that lives as long as the voxels, in whole cache lines.
+static void *take(FrVoxels *voxels, size_t size) {
+    size = (size + 63) / 64 * 64;
+    if (voxels->slab_used + size > voxels->slab_size) {
+        g_ptr_array_add(voxels->slabs, g_malloc0(SLAB + 64));
+        voxels->slab_size = SLAB;
+        voxels->slab_used = 0;
+        voxels->bytes += SLAB;
+    }
+    char *slab = g_ptr_array_index(voxels->slabs, voxels->slabs->len - 1);
+    char *aligned = slab + (64 - (uintptr_t)slab % 64) % 64;
+    void *memory = aligned + voxels->slab_used;
+    voxels->slab_used += size;
+    return memory;
+}
+
+FrBrick *fr_voxels_make(FrVoxels *voxels, FrCell cell) {
+    unsigned x = (unsigned)cell.at[0], y = (unsigned)cell.at[1], z = (unsigned)cell.at[2];
+    FrBrick ***block = &voxels->top[((z >> 6) * 64 + (y >> 6)) * 64 + (x >> 6)];
+    if (*block == NULL) {
+        *block = take(voxels, BLOCK * sizeof(FrBrick *));
+    }
+    FrBrick **brick = &(*block)[((z >> 3 & 7) * 8 + (y >> 3 & 7)) * 8 + (x >> 3 & 7)];
+    if (*brick == NULL) {
+        *brick = take(voxels, sizeof(FrBrick));
+    }
+    return *brick;
+}
+
+FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell) {
+    FrBrick *brick = fr_voxels_brick(voxels, cell);
+    if (brick == NULL) {
+        brick = fr_voxels_make(voxels, cell);
+    }
+    if (brick->owner == NULL) {
+        brick->owner = take(voxels, FR_BRICK_CELLS * sizeof(uint32_t));
+        brick->claim = take(voxels, FR_BRICK_CELLS * sizeof(uint32_t));
+        memset(brick->owner, 0xff, FR_BRICK_CELLS * sizeof(uint32_t));
+        memset(brick->claim, 0xff, FR_BRICK_CELLS * sizeof(uint32_t));
+    }
+    return brick;
+}
+
+uint32_t fr_voxels_walk(const FrVoxels *voxels, const double from[3], const double to[3],
+                        FrCell *cells) {
+    FrCell at, end;
+    bool is_inside = fr_voxels_cell(voxels, from, &at) && fr_voxels_cell(voxels, to, &end);
+    FR_ASSERT(is_inside);
+    double next[3], step[3];
+    int way[3];
+    uint32_t left = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        double along = (to[axis] - from[axis]) / voxels->cell;
+        double where = (from[axis] - voxels->origin[axis]) / voxels->cell - (double)at.at[axis];
+        way[axis] = along > 0 ? 1 : -1;
+        step[axis] = 1 / fmax(fabs(along), 0x1.0p-100);
+        bool is_there = at.at[axis] == end.at[axis];
+        next[axis] = is_there ? INFINITY : (along > 0 ? 1 - where : where) * step[axis];
+        left += (uint32_t)abs(end.at[axis] - at.at[axis]);
+    }
+    FR_ASSERT(left < FR_WALK_CELLS);
+    cells[0] = at;
+    // As many crossings as the cells lie apart along each axis, so rounding cannot miss the end.
+    for (uint32_t i = 1; i <= left; i++) {
+        int axis = next[0] <= next[1] ? (next[0] <= next[2] ? 0 : 2) : (next[1] <= next[2] ? 1 : 2);
+        at.at[axis] = (int16_t)(at.at[axis] + way[axis]);
+        next[axis] = at.at[axis] == end.at[axis] ? INFINITY : next[axis] + step[axis];
+        cells[i] = at;
+    }
+    return left + 1;
+}
+
+void fr_voxels_each_owned(const FrVoxels *voxels,
+                          void (*visit)(void *data, FrCell first, FrBrick *brick), void *data) {
+    for (int top = 0; top < TOP; top++) {
+        FrBrick **block = voxels->top[top];
+        for (int i = 0; block != NULL && i < BLOCK; i++) {
+            if (block[i] != NULL && block[i]->owner != NULL) {
+                FrCell first = {{(int16_t)((top % 64) * 64 + (i % 8) * 8),
+                                 (int16_t)((top / 64 % 64) * 64 + (i / 8 % 8) * 8),
+                                 (int16_t)((top / 4096) * 64 + (i / 64) * 8)}};
+                visit(data, first, block[i]);
+            }
+        }
+    }
+}
+
+/// Bits of a layer that have an owner.
+static uint64_t owned_bits(const FrBrick *brick, int layer) {
+    uint64_t bits = 0;
+    for (unsigned i = 0; brick->owner != NULL && i < 64; i++) {
+        bits |= (uint64_t)(brick->owner[(unsigned)layer * 64 + i] != FR_VOXEL_FREE) << i;
+    }
+    return bits;
+}
+
+void fr_voxels_clear_solid(FrVoxels *voxels) {
+    for (int top = 0; top < TOP; top++) {
+        FrBrick **block = voxels->top[top];
+        for (int i = 0; block != NULL && i < BLOCK; i++) {
+            for (int layer = 0; block[i] != NULL && layer < 8; layer++) {
+                block[i]->taken[layer] = owned_bits(block[i], layer);
+                block[i]->solid[layer] = 0;
+                block[i]->ground[layer] = 0;
+            }
+        }
+    }
+}
