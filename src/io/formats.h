@@ -22,3 +22,5 @@ FrStatus fr_stl_write(const FrScene *scene, const char *path, const FrIoOptions 
                       const FrContext *context, FrIoStats *stats);
 FrStatus fr_step_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                        const FrContext *context, FrIoStats *stats);
+FrStatus fr_usd_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                      const FrContext *context, FrIoStats *stats);
