@@ -70,6 +70,7 @@ typedef struct FrAxes {
     uint16_t *order;        ///< 0 main stem, 1 its branches, …
     uint16_t *flags;        ///< FR_SHED … FR_POINT_SETS
     uint32_t *profile;      ///< cross-section, index into profiles; FR_NONE is a circle
+    uint32_t *finish;       ///< of its surface, index into finishes; FR_NONE is plain
     uint32_t *material;     ///< index into materials; FR_NONE is the plain default
     uint32_t *deformer;     ///< scope, index into deformers; FR_NONE
     uint32_t *component;    ///< what made it: a component, production or stroke (provenance)
@@ -111,6 +112,39 @@ typedef struct FrProfile {
     uint32_t count;
     bool is_closed;
 } FrProfile;
+
+/// How an axis ends that is FR_CUT.
+typedef enum FrCap {
+    FR_CAP_FLAT,
+    FR_CAP_ROUND,  ///< a dome
+    FR_CAP_BROKEN, ///< splinters, other ones for each path
+    FR_CAP_OPEN,   ///< nothing closes it
+} FrCap;
+
+/// How a branch meets its parent.
+typedef enum FrJunction {
+    FR_JUNCTION_COLLAR, ///< on its surface, with its normals
+    FR_JUNCTION_PLAIN,  ///< a tube that begins within it
+    FR_JUNCTION_WELDED, ///< one surface: the parent has a hole there and shares its margin
+} FrJunction;
+
+/// What makes the surface of an axis more than a plain tube. Only skin reads it. Ridges and relief
+/// stand out from the tube, so that what sits on it never floats; those of a chain of axes that
+/// continue one another are its first one's.
+typedef struct FrFinish {
+    uint32_t cap;        ///< FrCap
+    uint32_t junction;   ///< FrJunction
+    uint32_t is_open;    ///< 1: its base is not closed where it stands on nothing
+    uint32_t buttresses; ///< ridges around the foot
+    float cap_height;    ///< of a dome or of splinters, in radii of the end
+    float wall;          ///< of a hollow axis that ends flat, broken or open, in radii; 0: solid
+    float buttress_depth, buttress_height; ///< at the base, in radii of it
+    float buttress_width;                  ///< part of the foot that they take, 0 to 1
+    float irregularity;                    ///< how much they differ, 0 to 1
+    float relief;                          ///< depth of the furrows, in radii
+    float relief_count;                    ///< how many around
+    float relief_stretch;                  ///< how much longer than wide
+} FrFinish;
 
 /// Leaf blade, petal or sepal in its own frame: base at the origin, midrib along z, upper face y.
 /// Angles in radians, lengths in metres at organ scale 1.
@@ -207,6 +241,7 @@ typedef struct FrPlant {
     FrBuds buds;
     GArray *shapes;            ///< FrShape
     GArray *profiles;          ///< FrProfile
+    GArray *finishes;          ///< FrFinish
     GPtrArray *materials;      ///< FrMaterial *, owned references
     GPtrArray *files;          ///< FrMeshFile *, owned references
     GArray *deformers;         ///< FrDeformer
@@ -243,6 +278,8 @@ FR_API uint32_t fr_plant_add_shape(FrPlant *plant, const FrShape *shape);
 /// Copies the points; equal profiles are shared.
 FR_API uint32_t fr_plant_add_profile(FrPlant *plant, const double (*points)[2], uint32_t count,
                                      bool is_closed);
+/// Appends a finish.
+FR_API uint32_t fr_plant_add_finish(FrPlant *plant, const FrFinish *finish);
 /// Takes a reference; a material already there gives its index.
 FR_API uint32_t fr_plant_add_material(FrPlant *plant, FrMaterial *material);
 /// Takes a reference; a file already there gives its index.
@@ -294,7 +331,8 @@ FR_API uint64_t fr_plant_refined_nodes(const FrPlant *plant, const uint16_t *joi
 /// place. Axes that are FR_POINT_SETS stay as they are.
 FR_API FrPlant *fr_plant_refined(const FrPlant *plant, const uint16_t *joints);
 
-/// Digest of everything that is truth: all columns but the cache, shapes, profiles, deformers.
+/// Digest of everything that is truth: all columns but the cache, shapes, profiles, finishes,
+/// deformers.
 FR_API FrDigest fr_plant_digest(const FrPlant *plant);
 /// Bytes allocated for all columns.
 FR_API uint64_t fr_plant_bytes(const FrPlant *plant);

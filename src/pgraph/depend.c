@@ -104,8 +104,9 @@ FrDigest fr_depend_tables(const FrExpansion *expansion) {
     for (guint s = 0; s < expansion->unrolled->stages->len; s++) {
         uint32_t component = g_array_index(expansion->unrolled->stages, FrStage, s).component;
         const FrPrepared *prepared = &expansion->prepared[component];
-        uint32_t head[] = {component,       prepared->material,     prepared->profile,
-                           prepared->shape, prepared->shape_choice, prepared->deformation};
+        uint32_t head[] = {
+            component,       prepared->material,     prepared->profile,    prepared->finish,
+            prepared->shape, prepared->shape_choice, prepared->deformation};
         digest = fr_digest(digest, head, sizeof head);
         digest =
             fr_digest(digest, prepared->pieces, prepared->piece_count * sizeof *prepared->pieces);

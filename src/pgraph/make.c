@@ -336,7 +336,7 @@ static void begin_axis(const FrExpansion *expansion, uint32_t row, const FrStem 
     bool is_base = limb->before == FR_NONE;
     bool continues = is_base && level->joint[row] == FR_JOINT_TIP && !pose.is_turned_or_moved;
     unsigned flags = (continues ? FR_CONTINUES : 0u) | (is_base ? 0u : FR_FORK) |
-                     (params->tip == FR_TIP_FLAT || stem->slim < 1 ? FR_CUT : 0u) |
+                     (params->tip != FR_TIP_POINTED || stem->slim < 1 ? FR_CUT : 0u) |
                      (stem->course == FR_COURSE_STEPS ? FR_POINT_SETS : 0u) |
                      (params->primitive > FR_PRIMITIVE_AREA ? FR_HIDDEN : 0u);
     if (is_base && stem->course == FR_COURSE_PATH) {
@@ -345,9 +345,11 @@ static void begin_axis(const FrExpansion *expansion, uint32_t row, const FrStem 
     }
     write_axis(expansion, row, level->axis_count[row] + limb->axis, pose,
                fr_limb_radius(stem, limb, limb->start), (uint16_t)flags);
+    FrAxes *axes = &expansion->plant->axes;
+    uint32_t axis = level->axis_count[row] + limb->axis, finish = stem->prepared->finish;
+    axes->finish[axis] = finish != FR_NONE ? finish + stem->is_broken : FR_NONE;
     if (!is_base) {
-        FrAxes *axes = &expansion->plant->axes;
-        axes->path[level->axis_count[row] + limb->axis] = limb->key;
+        axes->path[axis] = limb->key;
     }
 }
 

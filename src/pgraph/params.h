@@ -69,8 +69,8 @@
       "a closed tube, an open area, or a string of objects")                                       \
     X(INTEGER, detail, "12", 3, 128, "", "", "segments around an object of a string")              \
     X(TEXT, file, "", 0, 0, "", "", "file of triangles for primitive=mesh, as wide as the stem")   \
-    X(CHOICE, tip, "pointed", 0, 0, "", "pointed flat", "end of the stem")                         \
-    X(NUMBER, break_chance, "0", 0, 1, "", "", "probability that it is broken off, flat")          \
+    X(CHOICE, tip, "pointed", 0, 0, "", "pointed flat round broken open", "end of the stem")       \
+    X(NUMBER, break_chance, "0", 0, 1, "", "", "probability that it is broken off")                \
     X(NUMBER, break_at, "0.6", 0.01, 1, "", "", "where along the stem it then ends")               \
     X(NUMBER, forks, "0", 0, 6, "", "",                                                            \
       "how often it forks from base to tip; 1.5: twice by chance")                                 \
@@ -102,6 +102,25 @@
     X(NUMBER, step_rotate_y, "0", -3600, 3600, "deg", "", "turned about y in each step")           \
     X(NUMBER, step_rotate_z, "0", -3600, 3600, "deg", "", "turned about z in each step")           \
     X(NUMBER, step_scale, "1", 0.001, 1000, "", "", "size relative to the step before")
+
+/// The surface of a stem's foot, bark and ends. The last rows of Horn and Tree, so that they
+/// changed no draw of any row before.
+#define FR_FINISH_PARAMS(X)                                                                        \
+    X(CHOICE, break_tip, "flat", 0, 0, "", "flat broken", "its end where it is broken off")        \
+    X(REAL, tip_height, "1", 0.05, 50, "", "", "of a round end or of splinters, in radii")         \
+    X(CHOICE, foot, "closed", 0, 0, "", "closed open", "its base where it stands on nothing")      \
+    X(REAL, wall, "0", 0, 1, "", "",                                                               \
+      "wall of a hollow stem that does not end pointed or round, in radii; 0: solid")              \
+    X(INTEGER, buttresses, "0", 0, 32, "", "", "plates around the foot")                           \
+    X(REAL, buttress_depth, "1.5", 0, 20, "", "", "how far they stand out, in radii of the base")  \
+    X(REAL, buttress_height, "4", 0.01, 100, "", "", "how far they reach up, in radii")            \
+    X(REAL, buttress_width, "0.7", 0.05, 1, "", "", "part of the foot that they take")             \
+    X(REAL, buttress_jitter, "0.6", 0, 1, "", "", "how much they differ in place and size")        \
+    X(REAL, relief, "0", 0, 1, "", "", "depth of the furrows of the bark, in radii")               \
+    X(REAL, relief_count, "14", 1, 128, "", "", "furrows around")                                  \
+    X(REAL, relief_stretch, "4", 0.1, 100, "", "", "how much longer than wide they are")           \
+    X(CHOICE, junction, "collar", 0, 0, "", "collar plain",                                        \
+      "how it meets its parent: on a collar, or as a tube that begins within it")
 
 /// How a Tree places its branches. From azimuth on, evaluated for each branch.
 #define FR_BRANCHING_PARAMS(X)                                                                     \
@@ -192,10 +211,22 @@ typedef struct FrStemParams {
     FR_STEM_PARAMS(FR_PARAM_FIELD)
 } FrStemParams;
 
+typedef struct FrFinishParams {
+    FR_FINISH_PARAMS(FR_PARAM_FIELD)
+} FrFinishParams;
+
+/// Both begin as FrStemParams.
+typedef struct FrHornParams {
+    FR_BASIC_PARAMS(FR_PARAM_FIELD)
+    FR_STEM_PARAMS(FR_PARAM_FIELD)
+    FR_FINISH_PARAMS(FR_PARAM_FIELD)
+} FrHornParams;
+
 typedef struct FrTreeParams {
     FR_BASIC_PARAMS(FR_PARAM_FIELD)
     FR_STEM_PARAMS(FR_PARAM_FIELD)
     FR_BRANCHING_PARAMS(FR_PARAM_FIELD)
+    FR_FINISH_PARAMS(FR_PARAM_FIELD)
 } FrTreeParams;
 
 typedef struct FrLeafParams {
@@ -238,7 +269,7 @@ enum {
     FR_PRIMITIVE_NONE = 10,
     FR_PRIMITIVE_MESH,
 };
-enum { FR_TIP_POINTED, FR_TIP_FLAT };
+enum { FR_TIP_POINTED, FR_TIP_FLAT }; // from flat on in the order of FrCap
 enum { FR_CROWN_NONE };
 enum { FR_BRANCHES_BY_NUMBER, FR_BRANCHES_BY_DENSITY, FR_BRANCHES_BY_INTERNODE };
 enum { FR_SPACING_MIDDLE, FR_SPACING_ENDS };

@@ -240,6 +240,46 @@ static vec3s bead_size(const FrMeshFile *file) {
     return (vec3s){{factor, factor, factor}};
 }
 
+static FrFinishParams finish_of(const FrPrototype *prototype) {
+#define FR_TAKE(kind, field, ...) .field = params->field,
+    if (prototype->kind == FR_COMPONENT_TREE) {
+        const FrTreeParams *params = prototype->params;
+        return (FrFinishParams){FR_FINISH_PARAMS(FR_TAKE)};
+    }
+    const FrHornParams *params = prototype->params;
+    return (FrFinishParams){FR_FINISH_PARAMS(FR_TAKE)};
+#undef FR_TAKE
+}
+
+// What is plain has no finish; else there are two, so that odd ones are those of what is broken.
+static uint32_t add_finishes(FrPlant *plant, int tip, const FrFinishParams *params) {
+    FrFinish finish = {
+        .cap = tip > FR_TIP_FLAT ? (uint32_t)(tip - FR_TIP_FLAT) : FR_CAP_FLAT,
+        .junction = (uint32_t)params->junction,
+        .is_open = params->foot != 0,
+        .buttresses = (uint32_t)params->buttresses,
+        .cap_height = (float)params->tip_height,
+        .wall = (float)params->wall,
+        .buttress_depth = (float)params->buttress_depth,
+        .buttress_height = (float)params->buttress_height,
+        .buttress_width = (float)params->buttress_width,
+        .irregularity = (float)params->buttress_jitter,
+        .relief = (float)params->relief,
+        .relief_count = (float)params->relief_count,
+        .relief_stretch = (float)params->relief_stretch,
+    };
+    bool is_plain = finish.cap == FR_CAP_FLAT && params->break_tip == 0 && finish.junction == 0 &&
+                    finish.is_open == 0 && finish.buttresses == 0 && !(finish.wall > 0) &&
+                    !(finish.relief > 0);
+    if (is_plain) {
+        return FR_NONE;
+    }
+    uint32_t first = fr_plant_add_finish(plant, &finish);
+    finish.cap = params->break_tip != 0 ? FR_CAP_BROKEN : FR_CAP_FLAT;
+    fr_plant_add_finish(plant, &finish);
+    return first;
+}
+
 static FrStatus prepare_stem(FrPrepared *made, const FrPgraph *graph, const FrPrototype *prototype,
                              FrPlant *plant, const FrContext *context) {
     const FrStemParams *stem = prototype->params;
@@ -262,6 +302,10 @@ static FrStatus prepare_stem(FrPrepared *made, const FrPgraph *graph, const FrPr
         size = bead_size(made->file);
     }
     fr_prepare_pieces(made, stem->primitive, size, stem->detail, plant);
+    made->finished = finish_of(prototype);
+    if (stem->primitive <= FR_PRIMITIVE_AREA && stem->course != FR_COURSE_STEPS) {
+        made->finish = add_finishes(plant, stem->tip, &made->finished);
+    }
     made->along = fr_along_find(stem);
     made->bend_factor = total_bend(stem->curvature_curve);
     if (stem->course == FR_COURSE_PATH) {
@@ -397,6 +441,7 @@ static FrStatus prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t co
         .key_word = fr_key_child(fr_key_name(prototype->id), (uint64_t)basic->seed),
         .material = FR_NONE,
         .profile = FR_NONE,
+        .finish = FR_NONE,
         .shape = FR_NONE,
     };
     FrStatus status = fr_flags_parse(&made->flags, basic->only, prototype->id, (FrSpan){0}, NULL);

@@ -40,8 +40,10 @@ typedef struct FrPrepared {
     bool bears;        ///< multiplies at least one link
     uint32_t along;    ///< parameters of a stem that differ along it, bits 1 << FrAlong
     uint32_t profile;  ///< cross-section, of the plant; FR_NONE
-    uint32_t shape;    ///< of a revo, or the one of a leaf, of the plant; FR_NONE
-    FrPiece *pieces;   ///< of a primitive; owned
+    uint32_t finish;   ///< of a stem, of the plant; the next is that of a broken one; FR_NONE
+    FrFinishParams finished;
+    uint32_t shape;  ///< of a revo, or the one of a leaf, of the plant; FR_NONE
+    FrPiece *pieces; ///< of a primitive; owned
     uint32_t piece_count;
     FrMeshFile *file;            ///< triangles; owned reference; NULL
     struct FrDistance *distance; ///< from them, of a force; owned; NULL

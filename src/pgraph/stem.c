@@ -12,6 +12,7 @@
 
 enum { MOST_ADAPTIVE = 256, INTERNODES_OF_PROFILE = 8, MOST_BEADS = 1000 };
 enum { INTERNODES_OF_FLARE = 4, MOST_FOR_FLARE = 32 };
+enum { INTERNODES_OF_BUTTRESS = 8, MOST_FOR_BUTTRESS = 64, INTERNODES_OF_FURROW = 3 };
 
 // An internode for so many radians of turn, so few that no joint shows, and some for any bend.
 #define BEND_PER_INTERNODE (4 * DEGREE)
@@ -34,6 +35,21 @@ static uint32_t clamp_count(double count) {
 // How large a parameter is, on the average where it differs along the stem.
 static double size_of(const FrStem *stem, FrAlong which, double value) {
     return fr_is_along(stem, which) ? fr_along_size(stem, which) : fabs(value);
+}
+
+// Rings that ridges and furrows show on stand at nodes.
+static double finished_internodes(const FrStem *stem) {
+    const FrFinishParams *finish = &stem->prepared->finished;
+    double count = 0, radius = stem->radius * (1 + stem->flare);
+    if (finish->buttresses > 0 && radius > 0) {
+        double each = finish->buttress_height * radius / INTERNODES_OF_BUTTRESS;
+        count = fmin(stem->length / each, MOST_FOR_BUTTRESS);
+    }
+    if (finish->relief > 0 && stem->radius > 0) {
+        double furrow = 2 * PI * stem->radius * finish->relief_stretch / finish->relief_count;
+        count = fmax(count, INTERNODES_OF_FURROW * stem->length / furrow);
+    }
+    return count;
 }
 
 static uint32_t adaptive_internodes(const FrStem *stem) {
@@ -63,6 +79,7 @@ static uint32_t adaptive_internodes(const FrStem *stem) {
     if (stem->flare > 0) {
         count = fmax(count, fmin(INTERNODES_OF_FLARE / params->flare_height, MOST_FOR_FLARE));
     }
+    count = fmax(count, finished_internodes(stem));
     if (stem->step > 0) {
         count = fmax(count, stem->length / stem->step);
     }
@@ -206,6 +223,7 @@ static void measure_break(FrStem *stem, FrEvaluator *evaluator) {
     double chance = fr_value(evaluator, &params->break_chance, FR_STEM_break_chance);
     if (chance > 0 && fr_random(stem->key, fr_purpose(FR_STEM_break_chance), 1) < chance) {
         stem->whole = stem->slim = fr_value(evaluator, &params->break_at, FR_STEM_break_at);
+        stem->is_broken = stem->whole < 1;
         stem->length *= stem->whole;
         stem->twist *= stem->whole;
         stem->gnarl_frequency *= stem->whole;

@@ -51,9 +51,10 @@ typedef struct FrStem {
     double radius_unit; ///< m of radius 1
     double taper, min_radius, flatness, flare;
     double whole; ///< part of the stem that is there; less than 1 where it is broken off or grows
-    double slim;  ///< part of its profile that is there; less than 1 where it is broken off
-    double reach; ///< how much of what will be there has grown; places are parts of that
-    double growth_time;                              ///< years it grows for
+    bool is_broken;
+    double slim;        ///< part of its profile that is there; less than 1 where it is broken off
+    double reach;       ///< how much of what will be there has grown; places are parts of that
+    double growth_time; ///< years it grows for
     double curvature, twist, gnarl, gnarl_frequency; ///< radians; gnarls over the length
     double deviation;                                ///< radians; then places bend the stem
     double bend, bend_aside;                         ///< radians, by hand

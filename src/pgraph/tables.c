@@ -8,12 +8,13 @@ static const FrParam camera_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW)};
 #define FR_PARAM_STRUCT FrSimpleParams
 static const FrParam simple_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_SIMPLE_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
-#define FR_PARAM_STRUCT FrStemParams
-static const FrParam horn_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_STEM_PARAMS(FR_PARAM_ROW)};
+#define FR_PARAM_STRUCT FrHornParams
+static const FrParam horn_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_STEM_PARAMS(FR_PARAM_ROW)
+                                        FR_FINISH_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
 #define FR_PARAM_STRUCT FrTreeParams
-static const FrParam tree_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_STEM_PARAMS(FR_PARAM_ROW)
-                                        FR_BRANCHING_PARAMS(FR_PARAM_ROW)};
+static const FrParam tree_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_STEM_PARAMS(
+    FR_PARAM_ROW) FR_BRANCHING_PARAMS(FR_PARAM_ROW) FR_FINISH_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
 #define FR_PARAM_STRUCT FrLeafParams
 static const FrParam leaf_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_LEAF_PARAMS(FR_PARAM_ROW)};
@@ -71,7 +72,7 @@ static const FrParam graft_rows[] = {FR_BASIC_PARAMS(FR_PARAM_ROW) FR_GRAFT_PARA
 static const FrParamTable tables[FR_COMPONENT_COUNT] = {
     TABLE(camera, CAMERA, FrBasicParams, "the root of a plant's components"),
     TABLE(simple, SIMPLE, FrSimpleParams, "a solid, or one cross-section of a tube or area"),
-    TABLE(horn, HORN, FrStemParams, "a stem, or a string of objects"),
+    TABLE(horn, HORN, FrHornParams, "a stem, or a string of objects"),
     TABLE(tree, TREE, FrTreeParams, "a stem that multiplies its branch links along itself"),
     TABLE(leaf, LEAF, FrLeafParams, "a leaf, petal or sepal"),
     TABLE(phiball, PHIBALL, FrPhiballParams,

@@ -122,6 +122,8 @@ static void copy_axes(const FrExpansion *expansion, uint32_t row, uint32_t count
         for (uint32_t axis = level->axis_count[r]; axis < level->axis_count[r + 1]; axis++) {
             axes->bearer[axis] = bearer_now(expansion, r, axes->bearer[axis]);
             axes->profile[axis] = prepared_of(expansion, r)->profile;
+            uint32_t finish = prepared_of(expansion, r)->finish;
+            axes->finish[axis] = finish != FR_NONE ? finish + (axes->finish[axis] & 1) : FR_NONE;
             axes->material[axis] = fr_instance_material(expansion, r);
             axes->component[axis] = fr_instance_stage(expansion, r)->component;
             axes->deformer[axis] = level->deformer[r];

@@ -48,6 +48,7 @@ typedef struct FrColumns {
     X(order, ZERO, false)                                                                          \
     X(flags, ZERO, false)                                                                          \
     X(profile, NONE, false)                                                                        \
+    X(finish, NONE, false)                                                                         \
     X(material, NONE, false)                                                                       \
     X(deformer, NONE, false)                                                                       \
     X(component, NONE, false)                                                                      \

@@ -65,6 +65,7 @@ FrDigest fr_plant_digest(const FrPlant *plant) {
     digest = digest_table(digest, &plant->organs, plant->organs.count, &fr_organ_columns);
     digest = digest_table(digest, &plant->buds, plant->buds.count, &fr_bud_columns);
     digest = digest_array(digest, plant->shapes);
+    digest = digest_array(digest, plant->finishes);
     for (guint i = 0; i < plant->files->len; i++) {
         const FrMeshFile *file = g_ptr_array_index(plant->files, i);
         digest = fr_digest(digest, &file->digest, sizeof file->digest);

@@ -40,6 +40,7 @@ FrPlant *fr_plant_new(const char *name) {
     plant->shapes = g_array_new(FALSE, FALSE, sizeof(FrShape));
     plant->profiles = g_array_new(FALSE, FALSE, sizeof(FrProfile));
     g_array_set_clear_func(plant->profiles, profile_clear);
+    plant->finishes = g_array_new(FALSE, FALSE, sizeof(FrFinish));
     plant->materials = g_ptr_array_new_with_free_func(material_unref);
     plant->files = g_ptr_array_new_with_free_func(file_unref);
     plant->deformers = g_array_new(FALSE, FALSE, sizeof(FrDeformer));
@@ -63,6 +64,7 @@ void fr_plant_free(FrPlant *plant) {
     fr_columns_free(&plant->buds, &fr_bud_columns);
     g_array_unref(plant->shapes);
     g_array_unref(plant->profiles);
+    g_array_unref(plant->finishes);
     g_ptr_array_unref(plant->materials);
     g_ptr_array_unref(plant->files);
     g_array_unref(plant->deformers);
@@ -88,6 +90,7 @@ FrPlant *fr_plant_copy(const FrPlant *plant) {
         fr_plant_add_profile(copy, (const double(*)[2])profile->points, profile->count,
                              profile->is_closed);
     }
+    g_array_append_vals(copy->finishes, plant->finishes->data, plant->finishes->len);
     for (guint i = 0; i < plant->materials->len; i++) {
         fr_plant_add_material(copy, g_ptr_array_index(plant->materials, i));
     }

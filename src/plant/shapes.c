@@ -86,6 +86,11 @@ uint32_t fr_plant_add_profile(FrPlant *plant, const double (*points)[2], uint32_
     return plant->profiles->len - 1;
 }
 
+uint32_t fr_plant_add_finish(FrPlant *plant, const FrFinish *finish) {
+    g_array_append_vals(plant->finishes, finish, 1);
+    return plant->finishes->len - 1;
+}
+
 uint32_t fr_plant_add_material(FrPlant *plant, FrMaterial *material) {
     guint index;
     if (!g_ptr_array_find(plant->materials, material, &index)) {

@@ -68,11 +68,12 @@ static void check_axes(const FrPlant *plant, FrFinding *finding) {
             found(finding, "axis %u comes before the axis %u that bears it", a,
                   plant->nodes.axis[axes->bearer[a]]);
         } else if (!is_index(axes->profile[a], plant->profiles->len) ||
+                   !is_index(axes->finish[a], plant->finishes->len) ||
                    !is_index(axes->material[a], plant->materials->len) ||
                    !is_index(axes->deformer[a], plant->deformers->len) ||
                    !is_index(axes->component[a], plant->components->len)) {
-            found(finding, "axis %u has a profile, material, deformer or component out of range",
-                  a);
+            found(finding,
+                  "axis %u has a profile, finish, material, deformer or component out of range", a);
         } else if (!is_point(axes->offset[a]) || !is_length(axes->base_radius[a])) {
             found(finding, "axis %u has an offset or base radius that is no length", a);
         }

@@ -31,6 +31,9 @@ static FrSlotSum *place_tubes(FrPlan *plan) {
 FrDigest fr_wood_inputs(const FrPlant *plant) {
     uint32_t counts[] = {plant->materials->len, plant->profiles->len};
     FrDigest digest = fr_digest(0, counts, sizeof counts);
+    if (plant->finishes->len > 0) {
+        digest = fr_digest(digest, plant->finishes->data, plant->finishes->len * sizeof(FrFinish));
+    }
     for (guint i = 0; i < plant->materials->len; i++) {
         const FrMaterial *material = g_ptr_array_index(plant->materials, i);
         const FrMaterialParams *params = fr_material_params(material);

@@ -3,6 +3,7 @@
 // A band of quads may span several internodes as long as it turns less than the wanted angle, cuts
 // no corner visibly and meets every node's radius on its way. The radii are a swinging door: the
 // slopes that satisfy all nodes so far form an interval that only shrinks, so one pass suffices.
+#include "skin/cap.h"
 #include "skin/collar.h"
 #include "skin/plan.h"
 
@@ -52,8 +53,8 @@ static bool extend(const FrDetail *detail, FrBand *band, float length, vec3s hea
 
 // Marks the nodes of a tube where rings stand; answers how many, without start and end. False if
 // the tube has no length.
-static bool thin_out(FrPlan *plan, const FrTube *tube, const FrCollar *collar, uint32_t *kept,
-                     FrBand *last_band) {
+static bool thin_out(FrPlan *plan, const FrTube *tube, const FrCollar *collar, float rough,
+                     uint32_t *kept, FrBand *last_band) {
     const FrNodes *nodes = &plan->plant->nodes;
     float clear = collar != NULL ? collar->clear : 0.0F, along = 0.0F;
     FrBand band = band_at(FR_NONE, fr_tube_base_radius(plan, tube));
@@ -63,7 +64,7 @@ static bool thin_out(FrPlan *plan, const FrTube *tube, const FrCollar *collar, u
         float length = nodes->length[node];
         vec3s heading = fr_frame_heading(nodes->frame[node]);
         // What is straight now may be bent when it is deformed: then every node has its ring.
-        bool is_ended = tube->scope != FR_NONE && band.length > 0.0F;
+        bool is_ended = (tube->scope != FR_NONE || along < rough) && band.length > 0.0F;
         if (is_ended || !extend(&plan->detail, &band, length, heading, nodes->radius[node])) {
             // `band.length` is positive, so there is a node before.
             float least = fr_smallest_length(nodes->position[before], nodes->radius[before]);
@@ -118,7 +119,20 @@ static void keep_point_sets(FrPlan *plan, FrTube *tube) {
     tube->rings = rings < 2 ? 0 : rings;
 }
 
-static void count_rings(FrPlan *plan, FrTube *tube) {
+// How far up a run ridges and relief want a ring at every node, m.
+static float rough_length(const FrPlan *plan, const FrRun *run) {
+    if (run->finish == FR_NONE) {
+        return 0.0F;
+    }
+    const FrFinish *finish = &g_array_index(plan->plant->finishes, FrFinish, run->finish);
+    const FrTube *first = &g_array_index(plan->tubes, FrTube, run->first_tube);
+    float ridges = finish->buttress_height * fr_tube_base_radius(plan, first);
+    return finish->relief > 0.0F && plan->detail.lod < FR_RELIEF_GONE ? INFINITY
+           : finish->buttresses > 0 && plan->detail.lod < 3           ? ridges
+                                                                      : 0.0F;
+}
+
+static void count_rings(FrPlan *plan, FrTube *tube, float rough) {
     const FrNodes *nodes = &plan->plant->nodes;
     uint32_t sides = plan->sections[tube->section].count - 1;
     FrCollar collar = {0};
@@ -130,7 +144,7 @@ static void count_rings(FrPlan *plan, FrTube *tube) {
     }
     uint32_t kept = 0;
     FrBand band = band_at(FR_NONE, 0.0F);
-    if (!thin_out(plan, tube, is_branch ? &collar : NULL, &kept, &band)) {
+    if (!thin_out(plan, tube, is_branch ? &collar : NULL, rough, &kept, &band)) {
         tube->rings = 0;
         return;
     }
@@ -160,13 +174,10 @@ static void count_triangles(const FrPlan *plan, FrTube *tube) {
         tube->vertices += sides;
         triangles += sides;
     }
-    bool has_caps = plan->detail.caps && section->is_closed;
-    uint64_t caps = (tube->start == FR_START_FREE ? 1U : 0U) + (tube->end == FR_END_FLAT ? 1U : 0U);
-    if (has_caps) {
-        tube->vertices += caps * sides;
-        triangles += caps * (sides - 2);
-    }
     tube->indices = 3 * triangles;
+    if (plan->detail.caps && section->is_closed) {
+        fr_count_ends(plan, tube);
+    }
 }
 
 static void survey(const FrPlan *plan, const FrTube *tube, FrRun *run) {
@@ -190,6 +201,21 @@ static uint32_t sides_for(const FrDetail *detail, float radius) {
     return wanted < (float)detail->max_sides ? (uint32_t)wanted : detail->max_sides;
 }
 
+// Ridges and furrows need sides to show on.
+static uint32_t rough_sides(const FrPlan *plan, const FrRun *run, uint32_t sides) {
+    const FrFinish *finish = &g_array_index(plan->plant->finishes, FrFinish, run->finish);
+    uint32_t most = plan->detail.max_sides;
+    if (finish->relief > 0.0F && plan->detail.lod < FR_RELIEF_GONE) {
+        sides = MAX(sides, MIN((uint32_t)(3.0F * finish->relief_count), most));
+    }
+    if (finish->buttresses > 0) {
+        // A multiple, so that all ridges are alike.
+        uint32_t each = MAX(MAX(sides, most) / finish->buttresses, 3U);
+        sides = MIN(each * finish->buttresses, most);
+    }
+    return sides;
+}
+
 static void measure_run(FrPlan *plan, FrRun *run) {
     FrTube *tubes = &g_array_index(plan->tubes, FrTube, run->first_tube);
     uint32_t axis = tubes[0].axis, profile = plan->plant->axes.profile[axis];
@@ -198,20 +224,28 @@ static void measure_run(FrPlan *plan, FrRun *run) {
     for (uint32_t i = 0; i < run->tube_count; i++) {
         survey(plan, &tubes[i], run);
     }
-    uint32_t section = fr_plan_profile(plan, profile) != NULL
-                           ? plan->detail.max_sides + 1 + profile
-                           : sides_for(&plan->detail, run->radius);
+    const FrSection *own = fr_plan_profile(plan, profile);
+    if (own != NULL && !own->is_closed) {
+        run->finish = FR_NONE; // a strip has no bark
+    }
+    uint32_t section =
+        own != NULL ? plan->detail.max_sides + 1 + profile : sides_for(&plan->detail, run->radius);
+    if (own == NULL && run->finish != FR_NONE) {
+        section = rough_sides(plan, run, section);
+    }
+    float rough = rough_length(plan, run);
     for (uint32_t k = axis; k != FR_NONE; k = plan->successor[k]) {
         plan->section[k] = section;
     }
     for (uint32_t i = 0; i < run->tube_count; i++) {
         tubes[i].section = section;
         tubes[i].rings = 0;
+        tubes[i].is_rough = run->finish != FR_NONE;
         if (run->radius > 1e-7F && isfinite(run->radius)) {
             if (tubes[i].is_point_sets) {
                 keep_point_sets(plan, &tubes[i]);
             } else {
-                count_rings(plan, &tubes[i]);
+                count_rings(plan, &tubes[i], rough);
             }
         }
         count_triangles(plan, &tubes[i]);

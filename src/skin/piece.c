@@ -40,6 +40,10 @@ static FrDigest digest_axis(FrDigest digest, const FrPlan *plan, uint32_t axis) 
         const FrProfile *profile = &g_array_index(plant->profiles, FrProfile, axes->profile[axis]);
         digest = fr_profile_digest(digest, profile);
     }
+    const FrFinish *finish = fr_plan_finish(plan, axis);
+    if (finish != NULL) {
+        digest = fr_digest(digest, finish, sizeof *finish);
+    }
     // Nodes mostly follow each other: one block, else several.
     for (uint32_t first = axes->first[axis]; first != FR_NONE;) {
         uint32_t count = 1;

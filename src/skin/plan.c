@@ -131,13 +131,17 @@ static void begin_tube(FrPlan *plan, uint32_t axis, uint32_t from, uint32_t firs
         .end = FR_END_FLAT,
         .is_point_sets = (axes->flags[axis] & FR_POINT_SETS) != 0,
     };
+    const FrFinish *finish = fr_plan_finish(plan, axis);
+    tube.is_open = finish != NULL && finish->is_open != 0;
     g_array_append_val(plan->tubes, tube);
 }
 
 static FrTubeStart start_of_axis(const FrPlan *plan, uint32_t axis) {
     const FrPlant *plant = plan->plant;
     uint32_t bearer = plant->axes.bearer[axis];
-    if (bearer == FR_NONE || !is_node_drawn(plan, bearer) ||
+    const FrFinish *finish = fr_plan_finish(plan, axis);
+    bool is_plain = finish != NULL && finish->junction == FR_JUNCTION_PLAIN;
+    if (bearer == FR_NONE || !is_node_drawn(plan, bearer) || is_plain ||
         (plant->axes.flags[axis] & FR_POINT_SETS) != 0) {
         return FR_START_FREE;
     }
@@ -194,8 +198,13 @@ static void set_end(FrPlan *plan, uint32_t axis) {
     bool is_flat = (plant->axes.flags[axis] & (FR_CUT | FR_POINT_SETS)) != 0 ||
                    (plan->marks[tube->last] & FR_NODE_BLUNT) != 0 ||
                    (section != NULL && !section->is_closed);
+    const FrFinish *finish = fr_plan_finish(plan, axis);
     if (!is_flat) {
         tube->end = FR_END_POINT;
+    } else if (finish != NULL && !tube->is_point_sets) {
+        tube->cap = (uint8_t)finish->cap;
+        tube->cap_height = finish->cap_height;
+        tube->wall = finish->cap != FR_CAP_ROUND ? finish->wall : 0.0F;
     }
 }
 
@@ -207,7 +216,11 @@ static void find_runs(FrPlan *plan) {
         if (plan->before[k] != FR_NONE || !is_axis_drawn(plan, k)) {
             continue;
         }
-        FrRun run = {.first_tube = plan->tubes->len};
+        FrRun run = {.first_tube = plan->tubes->len, .finish = FR_NONE};
+        const FrFinish *finish = fr_plan_finish(plan, k);
+        if (finish != NULL && (finish->buttresses > 0 || finish->relief > 0.0F)) {
+            run.finish = plant->axes.finish[k];
+        }
         bool is_open = false;
         uint32_t end = k;
         for (uint32_t axis = k; axis != FR_NONE; axis = plan->successor[axis]) {
@@ -306,6 +319,11 @@ vec3s fr_tube_origin(const FrPlan *plan, const FrTube *tube) {
 float fr_tube_base_radius(const FrPlan *plan, const FrTube *tube) {
     return tube->from == FR_NONE ? plan->plant->axes.base_radius[tube->axis]
                                  : plan->plant->nodes.radius[tube->from];
+}
+
+const FrFinish *fr_plan_finish(const FrPlan *plan, uint32_t axis) {
+    uint32_t finish = plan->plant->axes.finish[axis];
+    return finish != FR_NONE ? &g_array_index(plan->plant->finishes, FrFinish, finish) : NULL;
 }
 
 const FrSection *fr_plan_profile(const FrPlan *plan, uint32_t profile) {

@@ -53,7 +53,13 @@ typedef struct FrTube {
     bool has_join;        ///< … followed by a full ring where the branch is clear of its parent
     uint8_t start, end;
     bool is_point_sets;
-    bool has_shoulder;                  ///< FR_END_POINT: blunt, so a ring shortly before the tip
+    bool has_shoulder;   ///< FR_END_POINT: blunt, so a ring shortly before the tip
+    uint8_t cap;         ///< FrCap, for FR_END_FLAT
+    bool is_open;        ///< its base, for FR_START_FREE
+    bool is_rough;       ///< its rings are not those of its section: ridges or relief
+    uint32_t wall_rings; ///< of these: what its own end adds, see cap.c
+    float cap_height;    ///< radii
+    float wall;          ///< radii, 0: solid
     uint64_t first_vertex, first_index; ///< in the part
     uint64_t vertices, indices;
 } FrTube;
@@ -62,6 +68,7 @@ typedef struct FrRun {
     uint32_t first_tube, tube_count;
     float radius;        ///< m, greatest
     bool follows_frames; ///< not round: turned as its nodes' frames say
+    uint32_t finish;     ///< with ridges or relief; FR_NONE
 } FrRun;
 
 /// A node's marks.
@@ -134,6 +141,8 @@ void fr_deform_vertices(const FrPlan *plan, uint32_t scope, FrUpAxis up, FrVerte
 /// Where a tube begins and how thick it is there.
 vec3s fr_tube_origin(const FrPlan *plan, const FrTube *tube);
 float fr_tube_base_radius(const FrPlan *plan, const FrTube *tube);
+/// The finish of an axis, or NULL if it is plain.
+const FrFinish *fr_plan_finish(const FrPlan *plan, uint32_t axis);
 /// The section of a profile, or NULL if it is round.
 const FrSection *fr_plan_profile(const FrPlan *plan, uint32_t profile);
 /// How far along its last band, 0 to 1, a blunt tube keeps its thickness.

@@ -1,4 +1,4 @@
-// Writes rings, the bands between them, caps and tips.
+// Writes rings, the bands between them and pointed tips.
 //
 // For a round section a vertex is an affine function of its column's (x, y, u): eight floats in,
 // eight floats out, the same four coefficient vectors for the whole ring.
@@ -79,7 +79,10 @@ void fr_ring_done(FrSweep *sweep, bool has_band) {
 }
 
 void fr_write_ring(FrSweep *sweep, const FrRing *ring, bool has_band) {
-    if (sweep->section->is_round && ring->flatness == 1.0F) {
+    if (sweep->finish != NULL) {
+        sweep->along += sweep->has_ring ? glms_vec3_distance(ring->at, sweep->ring.at) : 0.0F;
+        fr_write_rough(sweep, ring);
+    } else if (sweep->section->is_round && ring->flatness == 1.0F) {
         write_round(sweep, ring);
     } else {
         write_profile(sweep, ring);
@@ -87,31 +90,6 @@ void fr_write_ring(FrSweep *sweep, const FrRing *ring, bool has_band) {
     fr_ring_done(sweep, has_band);
     sweep->ring = *ring;
     sweep->has_ring = true;
-}
-
-void fr_write_cap(FrSweep *sweep, const FrRing *ring, const FrVertex *rim, float facing) {
-    const FrSection *section = sweep->section;
-    if (!sweep->plan->detail.caps || !section->is_closed) {
-        return;
-    }
-    const float *tile = sweep->plan->tiles[sweep->tube->slot];
-    float radius = glms_vec3_norm(ring->across);
-    uint32_t points = section->count - 1;
-    for (uint32_t i = 0; i < points; i++) {
-        FrVertex *out = &sweep->vertex[i];
-        memcpy(out->position, rim[i].position, sizeof out->position);
-        fr_put(out->normal, glms_vec3_scale(ring->tangent, facing), sweep->up);
-        out->uv[0] = sweep->bark.u + section->columns[i].x * radius / tile[0];
-        out->uv[1] = ring->v - section->columns[i].y * radius / tile[1];
-    }
-    for (uint32_t i = 0; i < 3 * (points - 2); i += 3) {
-        bool is_front = facing > 0.0F;
-        *sweep->index++ = sweep->count + section->cap[i];
-        *sweep->index++ = sweep->count + section->cap[i + (is_front ? 1 : 2)];
-        *sweep->index++ = sweep->count + section->cap[i + (is_front ? 2 : 1)];
-    }
-    sweep->vertex += points;
-    sweep->count += points;
 }
 
 // One vertex for every side, so that each keeps its own normal and its own u at the very tip.

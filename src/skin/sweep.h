@@ -36,10 +36,14 @@ typedef struct FrSweep {
     vec3s side;    ///< … the x direction carried along it; both unit
     FrRing ring;   ///< the last one written
     bool has_ring;
-    uint32_t node;      ///< the next to be looked at; FR_NONE: past the end
-    bool is_before_tip; ///< only the tip is left, after its shoulder
-    float radius;       ///< at the node before
-    float v;            ///< there
+    uint32_t node;          ///< the next to be looked at; FR_NONE: past the end
+    bool is_before_tip;     ///< only the tip is left, after its shoulder
+    float radius;           ///< at the node before
+    float v;                ///< there
+    const FrFinish *finish; ///< with ridges or relief, NULL
+    float foot;             ///< … radius of the run's base, m
+    float along;            ///< … m from its base to the last ring
+    FrKey key;              ///< … of the run
     FrVertex *vertex;
     uint32_t *index;
     uint32_t count; ///< of vertices so far, from the part's first
@@ -57,12 +61,20 @@ static inline void fr_put(float out[3], vec3s v, FrUpAxis up) {
 void fr_write_ring(FrSweep *sweep, const FrRing *ring, bool has_band);
 /// Counts a ring whose vertices the caller has written.
 void fr_ring_done(FrSweep *sweep, bool has_band);
-/// Closes a ring whose vertices begin at `rim`: `facing` 1 towards the tip, −1 towards the base.
-void fr_write_cap(FrSweep *sweep, const FrRing *ring, const FrVertex *rim, float facing);
 /// Closes the last ring to a point.
 void fr_write_apex(FrSweep *sweep, const FrStation *tip, float slope);
 /// The normal of a ring where its section has the normal (x, y).
 vec3s fr_ring_normal(const FrRing *ring, float x, float y);
+
+// ---- relief.c: ridges and relief ---------------------------------------------------------------
+
+/// Writes the vertices of a ring that stand out from its section.
+void fr_write_rough(const FrSweep *sweep, const FrRing *ring);
+
+// ---- cap.c: ends -------------------------------------------------------------------------------
+
+/// Writes what closes a tube whose rings are written, the first of them `first`.
+void fr_write_ends(FrSweep *sweep, const FrRing *first);
 
 // ---- joint.c: directions -----------------------------------------------------------------------
 

@@ -52,7 +52,6 @@ static void sweep_stations(FrSweep *sweep) {
     FrStation station = start_tube(sweep, &is_written);
     bool has_band = is_written || tube->collar_rings > 0;
     bool may_turn = !has_band && tube->start != FR_START_BRANCH;
-    const FrVertex *first_rim = sweep->vertex;
     FrRing first = {0};
     float slope = 0.0F;
     bool is_tip = false;
@@ -87,12 +86,7 @@ static void sweep_stations(FrSweep *sweep) {
         FrRing ring = fr_joint_ring(sweep, &station, tube_end_heading(sweep), slope);
         fr_write_ring(sweep, &ring, has_band);
     }
-    if (tube->end == FR_END_FLAT) {
-        fr_write_cap(sweep, &sweep->ring, sweep->vertex - sweep->section->count, 1.0F);
-    }
-    if (tube->start == FR_START_FREE) {
-        fr_write_cap(sweep, &first, first_rim, -1.0F);
-    }
+    fr_write_ends(sweep, &first);
 }
 
 // A ring exactly in the frame of its node, whatever the angle.
@@ -121,7 +115,6 @@ static void write_point_set(FrSweep *sweep, FrStation station, bool has_band) {
 
 static void sweep_point_sets(FrSweep *sweep) {
     const FrTube *tube = sweep->tube;
-    const FrVertex *first_rim = sweep->vertex;
     // The first set is where the axis begins, or the last one of the axis it goes on from.
     bool is_joint = tube->start == FR_START_JOINT;
     FrStation base = fr_station_at(sweep, is_joint ? tube->from : tube->first, sweep->v);
@@ -137,12 +130,7 @@ static void sweep_point_sets(FrSweep *sweep) {
             break;
         }
     }
-    if (tube->end == FR_END_FLAT) {
-        fr_write_cap(sweep, &sweep->ring, sweep->vertex - sweep->section->count, 1.0F);
-    }
-    if (tube->start == FR_START_FREE) {
-        fr_write_cap(sweep, &first, first_rim, -1.0F);
-    }
+    fr_write_ends(sweep, &first);
 }
 
 // Points the sweep at a tube. Bark goes on from the tube before it in the run.
@@ -169,6 +157,12 @@ static void take_tube(FrSweep *sweep, const FrTube *tube, const FrSlab *slab) {
 void fr_write_run(const FrPlan *plan, const FrRun *run, FrUpAxis up, const FrSlab *slabs,
                   FrBox *boxes, FrDeformNote *notes) {
     FrSweep sweep = {.plan = plan, .run = run, .up = up};
+    if (run->finish != FR_NONE) {
+        const FrTube *base = &g_array_index(plan->tubes, FrTube, run->first_tube);
+        sweep.finish = &g_array_index(plan->plant->finishes, FrFinish, run->finish);
+        sweep.foot = fr_tube_base_radius(plan, base);
+        sweep.key = plan->plant->axes.path[base->axis];
+    }
     for (uint32_t i = 0; i < run->tube_count; i++) {
         const FrTube *tube = &g_array_index(plan->tubes, FrTube, run->first_tube + i);
         FrBox *box = &boxes[run->first_tube + i];

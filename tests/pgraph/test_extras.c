@@ -115,6 +115,34 @@ static void broken_stems(void) {
     built_free(built);
 }
 
+// Stems without a finish of their own have none; of others those that broke have another.
+static void finishes(void) {
+    Built built = build("horn A tip=flat\nhorn B lobes=5");
+    g_assert_cmpuint(built.plant->finishes->len, ==, 0);
+    built_free(built);
+    built = build("phiball P number=200\nhorn A length=2;radius=.1;break-chance=.5;tip=round;"
+                  "break-tip=broken;wall=.2;relief=.1;buttresses=3\nP - A");
+    const FrAxes *axes = &built.plant->axes;
+    uint32_t broken = 0;
+    g_assert_cmpuint(built.plant->finishes->len, ==, 2);
+    for (uint32_t k = 0; k < axes->count; k++) {
+        double length = 0;
+        for (uint32_t node = axes->first[k]; node != FR_NONE;
+             node = built.plant->nodes.next[node]) {
+            length += (double)built.plant->nodes.length[node];
+        }
+        bool is_broken = length < 1.9;
+        broken += is_broken;
+        const FrFinish *finish = &g_array_index(built.plant->finishes, FrFinish, axes->finish[k]);
+        g_assert_cmpuint(finish->cap, ==, is_broken ? FR_CAP_BROKEN : FR_CAP_ROUND);
+        g_assert_cmpuint(finish->buttresses, ==, 3);
+        g_assert_true(axes->flags[k] & FR_CUT);
+    }
+    g_assert_cmpuint(broken, >, 70);
+    g_assert_cmpuint(broken, <, 130);
+    built_free(built);
+}
+
 static void faint_bends(void) {
     // No joint turns by so much that it shows; what is straight stays one piece.
     Built built = build("horn A curvature=20");
@@ -175,6 +203,7 @@ int main(int argc, char **argv) {
     TEST("stems break by chance and bear nothing above", broken_stems);
     TEST("the superformula makes the outlines of its paper", superformula);
     TEST("a leaf may have two different halves", two_halves);
+    TEST("finishes are there where they are asked for, others on what broke", finishes);
     TEST("bends are so fine that no joint shows", faint_bends);
     return g_test_run();
 }

@@ -185,6 +185,20 @@ static void test_mixture(void) {
     g_string_free(text, TRUE);
 }
 
+// What broke keeps its own finish, whatever other finishes come before it.
+static void test_finishes(void) {
+    Pair pair = rebuilt("horn first length=.1\ntree trunk number=40\n"
+                        "horn twig break_chance=.5;break_tip=broken;tip=round\n"
+                        "first - trunk\ntrunk = twig",
+                        "first", "tip", "round");
+    g_assert_cmpuint(fr_pgraph_build_plant(pair.build)->finishes->len, ==, 4);
+    pair_free(pair);
+    pair = rebuilt("tree trunk number=40\nhorn twig break_chance=.5;break_tip=broken\n"
+                   "horn other relief=.1\ntrunk = twig\ntrunk = other",
+                   "other", "relief", "0");
+    pair_free(pair);
+}
+
 static void test_failure(void) {
     FrPgraph *graph = graph_read(tree);
     FrPgraphBuild *last = rebuild(graph, NULL), *none;
@@ -261,6 +275,7 @@ int main(int argc, char **argv) {
     g_test_add_func(NAME("another seed makes all"), test_seed);
     g_test_add_func(NAME("components and links come and go"), test_structure);
     g_test_add_func(NAME("scopes, fields, chains, strings and choices follow edits"), test_mixture);
+    g_test_add_func(NAME("what broke keeps its finish"), test_finishes);
     g_test_add_func(NAME("a build that fails leaves the last one as it was"), test_failure);
     g_test_add_func(NAME("warnings are given again"), test_warnings);
     g_test_add_func(NAME("the bits are the same for any number of threads"), test_threads);
