@@ -1,5 +1,6 @@
 /// `--set`: one attribute's bytes are replaced, everything else stays as the user wrote it.
 #include "document/reader.h"
+#include "document/splice.h"
 
 #include <string.h>
 
@@ -159,52 +160,6 @@ static char *find_attribute_name(const GArray *targets, const Target *target, co
     return NULL;
 }
 
-static void append_escaped(GString *out, const char *value, char quote) {
-    for (const char *at = value; *at != '\0'; at++) {
-        if (*at == '&') {
-            g_string_append(out, "&amp;");
-        } else if (*at == '<') {
-            g_string_append(out, "&lt;");
-        } else if (*at == quote) {
-            g_string_append(out, quote == '"' ? "&quot;" : "&apos;");
-        } else if (*at == '\t' || *at == '\n' || *at == '\r') {
-            g_string_append_printf(out, "&#%d;", *at);
-        } else {
-            g_string_append_c(out, *at);
-        }
-    }
-}
-
-/// The document's text with one attribute set; `range` receives where the value now is.
-static GString *edited_text(const FrXmlTree *tree, uint32_t node, const char *name,
-                            const char *value, FrXmlRange *range) {
-    size_t size;
-    const char *text = fr_source_text(tree->source, &size);
-    const FrXmlNode *element = &tree->nodes[node];
-    const FrXmlAttribute *old = fr_xml_attribute(tree, node, name);
-    GString *out = g_string_sized_new(size + strlen(value) + strlen(name) + 8);
-    size_t rest;
-    if (old != NULL) {
-        g_string_append_len(out, text, old->value.begin);
-        range->begin = (uint32_t)out->len;
-        append_escaped(out, value, text[old->value.end]);
-        range->end = (uint32_t)out->len;
-        rest = old->value.end;
-    } else {
-        uint32_t count = element->attribute_count;
-        rest = count == 0 ? element->name.end
-                          : tree->attributes[element->attribute + count - 1].value.end + 1;
-        g_string_append_len(out, text, (gssize)rest);
-        g_string_append_printf(out, " %s=\"", name);
-        range->begin = (uint32_t)out->len;
-        append_escaped(out, value, '"');
-        range->end = (uint32_t)out->len;
-        g_string_append_c(out, '"');
-    }
-    g_string_append_len(out, text + rest, (gssize)(size - rest));
-    return out;
-}
-
 /// Passes on what is new: all if the edit failed, else only what concerns the value itself.
 static void pass_on(const FrDiags *from, FrStatus status, FrXmlRange value, FrDiags *to) {
     for (size_t i = 0; i < fr_diags_count(from); i++) {
@@ -217,9 +172,9 @@ static void pass_on(const FrDiags *from, FrStatus status, FrXmlRange value, FrDi
 }
 
 /// Reads the edited text and, if it is right, lets the document become it.
-static FrStatus replace_text(FrDocument *document, const GString *text, FrXmlRange value,
+static FrStatus replace_text(FrDocument *document, const char *text, size_t size, FrXmlRange value,
                              const FrContext *context) {
-    FrSource *source = fr_source_new(fr_document_name(document), text->str, text->len);
+    FrSource *source = fr_source_new(fr_document_name(document), text, size);
     FrContext inner = *context;
     inner.diags = fr_diags_new();
     FrDocument *edited;
@@ -258,9 +213,14 @@ static FrStatus set_target(FrDocument *document, const GArray *targets, const Ta
         return FR_ERR_USAGE;
     }
     FrXmlRange range;
-    GString *text = edited_text(document->tree, target->node, name, value, &range);
-    FrStatus status = replace_text(document, text, range, context);
-    g_string_free(text, TRUE);
+    GArray *splices = g_array_new(FALSE, FALSE, sizeof(FrSplice));
+    FrSplice splice = fr_splice_attribute(document->tree, target->node, name, value, &range);
+    g_array_append_val(splices, splice);
+    size_t size;
+    char *text = fr_splice_apply(document->tree, splices, &size);
+    FrStatus status = replace_text(document, text, size, range, context);
+    g_free(text);
+    g_array_unref(splices);
     g_free(name);
     return status;
 }
