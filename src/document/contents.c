@@ -214,10 +214,14 @@ char *fr_contents_text(const FrContents *contents, uint32_t element, FrSpan *pla
     return g_string_free(text, FALSE);
 }
 
+bool fr_contents_is_id(const char *id) {
+    return fr_id_is_valid(id);
+}
+
 // ---- edits -------------------------------------------------------------------------------------
 
 FrSplice fr_contents_set(const FrContents *contents, uint32_t element, const char *attribute,
-                        const char *value) {
+                         const char *value) {
     return fr_splice_attribute(contents->tree, node_of(contents, element), attribute, value, NULL);
 }
 
@@ -226,7 +230,7 @@ FrSplice fr_contents_set_text(const FrContents *contents, uint32_t element, cons
 }
 
 FrSplice fr_contents_insert(const FrContents *contents, uint32_t parent, uint32_t after,
-                           const char *xml) {
+                            const char *xml) {
     return fr_splice_insert(contents->tree, node_of(contents, parent),
                             after == FR_NONE ? FR_NONE : node_of(contents, after), xml);
 }

@@ -1,5 +1,6 @@
 /// Saving: beside the file, flushed, renamed; the file as it was, or the file as it is.
 #include "document/reader.h"
+#include "frond/contents.h"
 
 #include <glib/gstdio.h>
 #include <stdlib.h>
@@ -19,6 +20,10 @@ char *fr_document_text(const FrDocument *document, size_t *size) {
 FrStatus fr_document_save(const FrDocument *document, const char *path, FrDiags *diags) {
     size_t size;
     const char *text = fr_source_text(document->tree->source, &size);
+    return fr_contents_save(text, size, path, diags);
+}
+
+FrStatus fr_contents_save(const char *text, size_t size, const char *path, FrDiags *diags) {
     // A link stays a link, and the file keeps its permissions.
     char *target = realpath(path, NULL);
     const char *name = target == NULL ? path : target;

@@ -185,8 +185,7 @@ FrSplice fr_splice_insert(const FrXmlTree *tree, uint32_t parent, uint32_t after
         char *outer = indent_at(tree, tree->nodes[parent].all.begin);
         char *indent = g_strconcat(outer, "  ", NULL);
         char *element = indented(xml, indent);
-        splice = splice_inside(tree, parent,
-                               g_strconcat("\n", indent, element, "\n", outer, NULL));
+        splice = splice_inside(tree, parent, g_strconcat("\n", indent, element, "\n", outer, NULL));
         g_free(element);
         g_free(indent);
         g_free(outer);

@@ -1,6 +1,6 @@
 /// Contents show what a text holds; splices change what they name and nothing else.
-#include "frond/contents.h"
 #include "documents.h"
+#include "frond/contents.h"
 
 static const char text[] = "<?xml version='1.0'?>\n"
                            "<frond version='1'>\n"
@@ -82,9 +82,9 @@ static void test_values(void) {
     g_assert_cmpuint(fr_contents_around(contents, span.begin, &attribute), ==, stem);
     g_assert_cmpstr(attribute, ==, "length");
     g_free(attribute);
-    char *content =
-        fr_contents_text(contents, fr_contents_child(contents, fr_contents_find(contents, 0, "moss"),
-                                                  "lsystem"), &span);
+    char *content = fr_contents_text(
+        contents, fr_contents_child(contents, fr_contents_find(contents, 0, "moss"), "lsystem"),
+        &span);
     g_assert_cmpstr(content, ==, "F < F");
     g_assert_cmpuint(span.end - span.begin, ==, strlen("F &lt; F"));
     g_free(content);
@@ -116,9 +116,10 @@ static void test_elements_come_and_go(void) {
                   "radius='0.2'/>\n", "radius='0.2'/>\n      <leaf id='l'/>\n");
     assert_splice(contents, fr_contents_insert(contents, graph, FR_NONE, "<a>\n  <b/>\n</a>"),
                   "to='stem'/>\n", "to='stem'/>\n      <a>\n        <b/>\n      </a>\n");
-    assert_splice(contents,
-                  fr_contents_insert(contents, fr_contents_child(contents, 0, "oops"), FR_NONE, "<b/>"),
-                  "<oops id='stem'/>", "<oops id='stem'>\n    <b/>\n  </oops>");
+    assert_splice(
+        contents,
+        fr_contents_insert(contents, fr_contents_child(contents, 0, "oops"), FR_NONE, "<b/>"),
+        "<oops id='stem'/>", "<oops id='stem'>\n    <b/>\n  </oops>");
     fr_contents_free(contents);
 }
 

@@ -1,0 +1,347 @@
+#include "studio/model/builder.h"
+
+#include "frond/contents.h"
+#include "studio/model/painter.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { COARSE_FROM = 20000 }; // internodes from which on the coarse wood is worth making
+
+// A running build that takes longer than this gives way to a newer request; a shorter one is
+// finished and shown, so that a long drag shows something.
+static const double patience = 0.4;
+
+typedef struct Request {
+    FrSource *source;
+    char *folder;
+    uint64_t revision;
+    double time;
+} Request;
+
+struct StudioBuilder {
+    StudioWake wake;
+    void *user;
+    GThread *thread;
+    StudioPainter *painter;
+    GMutex lock;
+    GCond changed;
+    // Under the lock:
+    Request *waiting;     // NULL: none
+    FrProgress *progress; // of what runs; NULL: nothing runs
+    gint64 began;
+    StudioBuilt *built; // to be collected; NULL: none
+    bool is_held;       // collected and not released
+    bool is_over;       // the thread shall end
+    uint64_t collected; // greatest revision collected so far
+    gint fraction;      // atomic, in thousandths
+    // Of the thread alone:
+    FrRebuild *rebuild;
+    FrPool *pool;
+    StudioView *view;
+};
+
+static void request_free(Request *request) {
+    if (request != NULL) {
+        fr_source_unref(request->source);
+        g_free(request->folder);
+        g_free(request);
+    }
+}
+
+static void count_clear(gpointer data) {
+    StudioCount *count = data;
+    g_free(count->plant);
+    g_free(count->component);
+}
+
+static void built_free(StudioBuilt *built) {
+    if (built != NULL) {
+        fr_diags_free(built->diags);
+        g_clear_pointer(&built->counts, g_array_unref);
+        g_free(built);
+    }
+}
+
+// ---- the thread --------------------------------------------------------------------------------
+
+static void report(void *user, const char *stage, double fraction) {
+    (void)stage;
+    StudioBuilder *builder = user;
+    g_atomic_int_set(&builder->fraction, (gint)(fraction * 1000));
+}
+
+static GArray *count_instances(const FrScene *scene) {
+    GArray *counts = g_array_new(FALSE, FALSE, sizeof(StudioCount));
+    g_array_set_clear_func(counts, count_clear);
+    for (guint p = 0; p < scene->plants->len; p++) {
+        const FrScenePlant *plant = &g_array_index(scene->plants, FrScenePlant, p);
+        for (guint c = 0; plant->by_component != NULL && c < plant->plant->components->len; c++) {
+            const FrComponent *component = &g_array_index(plant->plant->components, FrComponent, c);
+            StudioCount count = {g_strdup(plant->plant->name), g_strdup(component->id),
+                                 plant->by_component[c]};
+            g_array_append_val(counts, count);
+        }
+    }
+    return counts;
+}
+
+static double seconds_since(gint64 began) {
+    return (double)(g_get_monotonic_time() - began) * 1e-6;
+}
+
+// Appends bytes of a text, or what takes the place of `origin`, with where they come from.
+static void append_from(GString *out, GArray *origins, const char *text, size_t size,
+                        uint32_t origin, bool is_copy) {
+    g_string_append_len(out, text, (gssize)size);
+    for (size_t i = 0; i < size; i++) {
+        uint32_t place = origin + (is_copy ? (uint32_t)i : 0);
+        g_array_append_val(origins, place);
+    }
+}
+
+// The text with the clocks of all plants set; places of diagnostics stay those of the document. A
+// text that is not well-formed stays as it is.
+static FrSource *at_time(FrSource *source, double time, const FrContext *context) {
+    FrContents *contents;
+    FrContext silent = *context;
+    silent.diags = NULL;
+    if (isnan(time) || fr_contents_read(source, &silent, &contents) != FR_OK) {
+        return fr_source_ref(source);
+    }
+    char value[G_ASCII_DTOSTR_BUF_SIZE];
+    g_ascii_dtostr(value, sizeof value, time);
+    size_t size;
+    const char *text = fr_source_text(source, &size);
+    GString *out = g_string_sized_new(size + 64);
+    GArray *origins = g_array_sized_new(FALSE, FALSE, sizeof(uint32_t), (guint)size + 64);
+    uint32_t at = 0;
+    for (uint32_t plant = fr_contents_child(contents, 0, "plant"); plant != FR_NONE;
+         plant = fr_contents_sibling(contents, plant)) {
+        FrSplice splice = fr_contents_set(contents, plant, "time", value);
+        append_from(out, origins, text + at, splice.begin - at, at, true);
+        append_from(out, origins, splice.text, strlen(splice.text), splice.begin, false);
+        at = splice.end;
+        g_free(splice.text);
+    }
+    append_from(out, origins, text + at, size - at + 1, at, true); // with the zero behind it
+    FrSource *result = fr_source_within(source, out->str, out->len - 1,
+                                        (const uint32_t *)(const void *)origins->data);
+    g_string_free(out, TRUE);
+    g_array_unref(origins);
+    fr_contents_free(contents);
+    return result;
+}
+
+// Pictures of looks that are new are made elsewhere; what they cost does not hold up the build.
+static void paint_looks(StudioBuilder *builder) {
+    for (guint p = 0; p < builder->view->plants->len; p++) {
+        const StudioPlant *plant = g_ptr_array_index(builder->view->plants, p);
+        for (guint i = 0; i < plant->looks->len; i++) {
+            const StudioLook *look = &g_array_index(plant->looks, StudioLook, i);
+            studio_painter_add(builder->painter, look->material, look->digest);
+        }
+    }
+}
+
+static FrStatus build(StudioBuilder *builder, const Request *request, const FrContext *context,
+                      StudioBuilt *built) {
+    gint64 began = g_get_monotonic_time();
+    FrSource *source = at_time(request->source, request->time, context);
+    FrDocument *document;
+    FrStatus status = fr_document_parse(source, request->folder, context, &document);
+    built->times.read = seconds_since(began);
+    began = g_get_monotonic_time();
+    if (status == FR_OK) {
+        status = fr_rebuild_update(builder->rebuild, document, -1, context);
+        built->times.build = seconds_since(began);
+    }
+    if (status == FR_OK) {
+        began = g_get_monotonic_time();
+        studio_view_free(builder->view);
+        FrContext calm = *context; // the rebuild is done: its view is made whole
+        calm.progress = NULL;
+        builder->view = studio_view_new(builder->rebuild, &calm);
+        built->view = builder->view;
+        built->counts = count_instances(builder->view->scene);
+        built->times.view = seconds_since(began);
+        paint_looks(builder);
+    }
+    fr_document_free(document);
+    fr_source_unref(source);
+    return status;
+}
+
+// Hands an outcome over and waits until it has been looked at: it borrows from the rebuild.
+static void deliver(StudioBuilder *builder, StudioBuilt *built) {
+    g_mutex_lock(&builder->lock);
+    builder->built = built;
+    builder->wake(builder->user);
+    while (builder->built != NULL && !builder->is_over) {
+        g_cond_wait(&builder->changed, &builder->lock);
+    }
+    g_mutex_unlock(&builder->lock);
+}
+
+static uint64_t count_nodes(const StudioView *view) {
+    uint64_t nodes = 0;
+    for (guint p = 0; p < view->plants->len; p++) {
+        nodes += ((const StudioPlant *)g_ptr_array_index(view->plants, p))->plant->nodes.count;
+    }
+    return nodes;
+}
+
+// While nothing newer is asked for, the view gets what is drawn while it moves.
+static void refine(StudioBuilder *builder, FrContext *context, uint64_t revision) {
+    g_mutex_lock(&builder->lock);
+    bool is_idle = builder->waiting == NULL && !builder->is_over;
+    g_mutex_unlock(&builder->lock);
+    if (!is_idle || count_nodes(builder->view) < COARSE_FROM) {
+        return;
+    }
+    context->diags = NULL;
+    studio_view_add_coarse(builder->view, context);
+    StudioBuilt *built = g_new0(StudioBuilt, 1);
+    built->revision = revision;
+    built->view = builder->view;
+    built->is_coarse = true;
+    deliver(builder, built);
+}
+
+static void serve(StudioBuilder *builder, Request *request, FrProgress *progress) {
+    FrContext context = fr_context_default();
+    context.pool = builder->pool;
+    context.progress = progress;
+    context.diags = fr_diags_new();
+    StudioBuilt *built = g_new0(StudioBuilt, 1);
+    built->revision = request->revision;
+    built->diags = context.diags;
+    built->status = build(builder, request, &context, built);
+    bool is_shown = built->view != NULL;
+    deliver(builder, built);
+    if (is_shown) {
+        refine(builder, &context, request->revision);
+    }
+}
+
+static gpointer run(gpointer data) {
+    StudioBuilder *builder = data;
+    g_mutex_lock(&builder->lock);
+    while (!builder->is_over) {
+        if (builder->waiting == NULL) {
+            g_cond_wait(&builder->changed, &builder->lock);
+            continue;
+        }
+        Request *request = g_steal_pointer(&builder->waiting);
+        FrProgress *progress = fr_progress_new(report, builder);
+        builder->progress = progress;
+        builder->began = g_get_monotonic_time();
+        g_atomic_int_set(&builder->fraction, 0);
+        g_mutex_unlock(&builder->lock);
+        serve(builder, request, progress);
+        request_free(request);
+        g_mutex_lock(&builder->lock);
+        builder->progress = NULL;
+        fr_progress_free(progress);
+    }
+    g_mutex_unlock(&builder->lock);
+    return NULL;
+}
+
+// ---- the main thread's side --------------------------------------------------------------------
+
+StudioBuilder *studio_builder_new(StudioWake wake, void *user) {
+    StudioBuilder *builder = g_new0(StudioBuilder, 1);
+    builder->wake = wake;
+    builder->user = user;
+    g_mutex_init(&builder->lock);
+    g_cond_init(&builder->changed);
+    FrSkinParams params = fr_skin_default();
+    params.foliage = false;
+    builder->rebuild = fr_rebuild_new(&params, FR_UP_Z);
+    builder->pool = fr_pool_new(0);
+    builder->painter = studio_painter_new(wake, user);
+    builder->thread = g_thread_new("builder", run, builder);
+    return builder;
+}
+
+void studio_builder_free(StudioBuilder *builder) {
+    if (builder == NULL) {
+        return;
+    }
+    g_mutex_lock(&builder->lock);
+    builder->is_over = true;
+    fr_progress_cancel(builder->progress);
+    g_cond_broadcast(&builder->changed);
+    g_mutex_unlock(&builder->lock);
+    g_thread_join(builder->thread);
+    studio_painter_free(builder->painter);
+    studio_view_free(builder->view);
+    built_free(builder->built);
+    request_free(builder->waiting);
+    fr_rebuild_free(builder->rebuild);
+    fr_pool_free(builder->pool);
+    g_cond_clear(&builder->changed);
+    g_mutex_clear(&builder->lock);
+    g_free(builder);
+}
+
+void studio_builder_request(StudioBuilder *builder, FrSource *source, const char *folder,
+                            uint64_t revision, double time) {
+    Request *request = g_new(Request, 1);
+    *request = (Request){fr_source_ref(source), g_strdup(folder), revision, time};
+    g_mutex_lock(&builder->lock);
+    request_free(builder->waiting);
+    builder->waiting = request;
+    if (builder->progress != NULL && seconds_since(builder->began) > patience) {
+        fr_progress_cancel(builder->progress);
+    }
+    g_cond_broadcast(&builder->changed);
+    g_mutex_unlock(&builder->lock);
+}
+
+void studio_builder_cancel(StudioBuilder *builder) {
+    g_mutex_lock(&builder->lock);
+    fr_progress_cancel(builder->progress);
+    g_mutex_unlock(&builder->lock);
+}
+
+bool studio_builder_is_busy(StudioBuilder *builder, double *fraction, double *seconds) {
+    g_mutex_lock(&builder->lock);
+    bool is_running = builder->progress != NULL;
+    bool is_busy = is_running || builder->waiting != NULL || builder->built != NULL;
+    *seconds = is_running ? seconds_since(builder->began) : 0;
+    g_mutex_unlock(&builder->lock);
+    *fraction = g_atomic_int_get(&builder->fraction) / 1000.0;
+    return is_busy;
+}
+
+const StudioBuilt *studio_builder_collect(StudioBuilder *builder) {
+    g_mutex_lock(&builder->lock);
+    StudioBuilt *built = builder->is_held ? NULL : builder->built;
+    builder->is_held = built != NULL;
+    if (built != NULL) {
+        builder->collected = MAX(builder->collected, built->revision);
+    }
+    g_mutex_unlock(&builder->lock);
+    return built;
+}
+
+void studio_builder_release(StudioBuilder *builder) {
+    g_mutex_lock(&builder->lock);
+    if (builder->is_held) {
+        built_free(builder->built);
+        builder->built = NULL;
+        builder->is_held = false;
+        g_cond_broadcast(&builder->changed);
+    }
+    g_mutex_unlock(&builder->lock);
+}
+
+bool studio_builder_take_picture(StudioBuilder *builder, StudioPicture *picture) {
+    return studio_painter_take(builder->painter, picture);
+}
+
+bool studio_builder_is_painting(StudioBuilder *builder) {
+    return studio_painter_is_busy(builder->painter);
+}

@@ -1,0 +1,60 @@
+/// @file builder.h
+/// Builds documents off the main thread. Every request is a snapshot of a text with its revision;
+/// of those that wait only the last is built. What was built last and right stays while something
+/// is wrong. Pictures of materials are made on a thread of their own, once for each look.
+#pragma once
+
+#include "studio/model/view.h"
+
+typedef struct StudioBuilder StudioBuilder;
+
+/// Something can be collected. Called from other threads: it only wakes the main one.
+typedef void (*StudioWake)(void *user);
+
+/// Where the time of a build went, in seconds.
+typedef struct StudioTimes {
+    double read, build, view;
+} StudioTimes;
+
+/// How many instances a component of a plant has.
+typedef struct StudioCount {
+    char *plant, *component;
+    uint64_t instances;
+} StudioCount;
+
+/// The outcome of a request.
+typedef struct StudioBuilt {
+    uint64_t revision;
+    FrStatus status;
+    FrDiags *diags;         ///< what is wrong, and warnings; with places in the text
+    const StudioView *view; ///< NULL: nothing new to draw. Valid until studio_builder_release()
+    bool is_coarse;         ///< only the coarse wood is new
+    GArray *counts;         ///< StudioCount; NULL without a view
+    StudioTimes times;
+} StudioBuilt;
+
+/// A material's picture of colours.
+typedef struct StudioPicture {
+    FrDigest digest;
+    FrImage *image;  ///< a reference; NULL: it has none
+    bool is_clamped; ///< not repeated: leaves
+} StudioPicture;
+
+StudioBuilder *studio_builder_new(StudioWake wake, void *user);
+/// Cancels what runs, waits for it and frees everything.
+void studio_builder_free(StudioBuilder *builder);
+/// Asks for a document. `time` in years for the clocks of all plants, NAN: as it says.
+void studio_builder_request(StudioBuilder *builder, FrSource *source, const char *folder,
+                            uint64_t revision, double time);
+/// Stops what runs; its status will be FR_CANCELLED.
+void studio_builder_cancel(StudioBuilder *builder);
+/// Whether something runs or waits, and how far it is (0 to 1); `seconds` since it began.
+bool studio_builder_is_busy(StudioBuilder *builder, double *fraction, double *seconds);
+/// The next outcome that is newer than those collected before, or NULL. The builder goes on only
+/// after studio_builder_release().
+const StudioBuilt *studio_builder_collect(StudioBuilder *builder);
+void studio_builder_release(StudioBuilder *builder);
+/// The next picture; free `image`. False: none is ready.
+bool studio_builder_take_picture(StudioBuilder *builder, StudioPicture *picture);
+/// Whether pictures are still being made.
+bool studio_builder_is_painting(StudioBuilder *builder);

@@ -1,0 +1,246 @@
+#include "studio/model/document.h"
+
+#include "studio/model/history.h"
+
+#include <glib/gstdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Watcher {
+    StudioChanged changed;
+    void *user;
+} Watcher;
+
+struct StudioDocument {
+    StudioHistory *history;
+    FrSource *source;
+    FrContents *contents; // of the last well-formed text; NULL if there was none
+    bool is_broken;
+    bool is_recovered; // the file holds another text than the first of the history
+    uint64_t revision;
+    char *path, *name, *folder;
+    GArray *watchers; // Watcher
+};
+
+static void notify(StudioDocument *document) {
+    for (guint i = 0; i < document->watchers->len; i++) {
+        Watcher watcher = g_array_index(document->watchers, Watcher, i);
+        watcher.changed(watcher.user);
+    }
+}
+
+// Brings all that follows from the text up to it.
+static void follow_text(StudioDocument *document) {
+    size_t size;
+    const char *text = studio_history_text(document->history, &size);
+    fr_source_unref(document->source);
+    document->source = fr_source_new(document->name, text, size);
+    FrContext context = fr_context_default();
+    FrContents *contents;
+    document->is_broken = fr_contents_read(document->source, &context, &contents) != FR_OK;
+    if (!document->is_broken) {
+        fr_contents_free(document->contents);
+        document->contents = contents;
+    }
+    document->revision++;
+}
+
+StudioDocument *studio_document_new(const char *text, size_t size, const char *name,
+                                    const char *folder) {
+    StudioDocument *document = g_new0(StudioDocument, 1);
+    document->history = studio_history_new(text, size);
+    document->name = g_strdup(name);
+    document->folder = g_strdup(folder == NULL ? "." : folder);
+    document->watchers = g_array_new(FALSE, FALSE, sizeof(Watcher));
+    document->source = fr_source_new(name, "", 0);
+    follow_text(document);
+    return document;
+}
+
+static void adopt_path(StudioDocument *document, const char *path) {
+    char *own = g_canonicalize_filename(path, NULL);
+    g_free(document->path);
+    g_free(document->name);
+    g_free(document->folder);
+    document->path = own;
+    document->name = g_path_get_basename(own);
+    document->folder = g_path_get_dirname(own);
+}
+
+FrStatus studio_document_open(const char *path, FrDiags *diags, StudioDocument **document) {
+    *document = NULL;
+    FrStatus status;
+    FrLimits limits = fr_context_default().limits;
+    FrSource *source = fr_source_load(path, limits.document_bytes, diags, &status);
+    if (source == NULL) {
+        return status;
+    }
+    size_t size;
+    const char *text = fr_source_text(source, &size);
+    *document = studio_document_new(text, size, "", NULL);
+    adopt_path(*document, path);
+    follow_text(*document);
+    fr_source_unref(source);
+    return FR_OK;
+}
+
+void studio_document_free(StudioDocument *document) {
+    if (document != NULL) {
+        studio_history_free(document->history);
+        fr_contents_free(document->contents);
+        fr_source_unref(document->source);
+        g_free(document->path);
+        g_free(document->name);
+        g_free(document->folder);
+        g_array_unref(document->watchers);
+        g_free(document);
+    }
+}
+
+void studio_document_watch(StudioDocument *document, StudioChanged changed, void *user) {
+    Watcher watcher = {changed, user};
+    g_array_append_val(document->watchers, watcher);
+}
+
+void studio_document_unwatch(StudioDocument *document, StudioChanged changed, void *user) {
+    for (guint i = document->watchers->len; i-- > 0;) {
+        Watcher watcher = g_array_index(document->watchers, Watcher, i);
+        if (watcher.changed == changed && watcher.user == user) {
+            g_array_remove_index(document->watchers, i);
+        }
+    }
+}
+
+// ---- what it is --------------------------------------------------------------------------------
+
+const char *studio_document_path(const StudioDocument *document) {
+    return document->path;
+}
+
+const char *studio_document_name(const StudioDocument *document) {
+    return document->name;
+}
+
+const char *studio_document_folder(const StudioDocument *document) {
+    return document->folder;
+}
+
+FrSource *studio_document_source(const StudioDocument *document) {
+    return document->source;
+}
+
+const FrContents *studio_document_contents(const StudioDocument *document) {
+    return document->contents;
+}
+
+bool studio_document_is_broken(const StudioDocument *document) {
+    return document->is_broken;
+}
+
+uint64_t studio_document_revision(const StudioDocument *document) {
+    return document->revision;
+}
+
+FrDigest studio_document_digest(const StudioDocument *document) {
+    size_t size;
+    const char *text = studio_history_text(document->history, &size);
+    return fr_digest(0, text, size);
+}
+
+// ---- changing it -------------------------------------------------------------------------------
+
+static bool after_change(StudioDocument *document, bool is_changed) {
+    if (is_changed) {
+        follow_text(document);
+        notify(document);
+    }
+    return is_changed;
+}
+
+bool studio_document_replace(StudioDocument *document, const char *text, size_t size,
+                             const char *name, const char *key) {
+    return after_change(document, studio_history_replace(document->history, text, size, name, key));
+}
+
+static void drop_splices(GArray *splices) {
+    for (guint i = 0; i < splices->len; i++) {
+        g_free(g_array_index(splices, FrSplice, i).text);
+    }
+    g_array_set_size(splices, 0);
+}
+
+bool studio_document_splice(StudioDocument *document, GArray *splices, const char *name,
+                            const char *key) {
+    if (document->is_broken || document->contents == NULL) {
+        drop_splices(splices);
+        return false;
+    }
+    size_t size;
+    char *text = fr_contents_apply(document->contents, splices, &size);
+    bool is_changed = studio_document_replace(document, text, size, name, key);
+    g_free(text);
+    return is_changed;
+}
+
+bool studio_document_splice_one(StudioDocument *document, FrSplice splice, const char *name,
+                                const char *key) {
+    GArray *splices = g_array_new(FALSE, FALSE, sizeof(FrSplice));
+    g_array_append_val(splices, splice);
+    bool is_changed = studio_document_splice(document, splices, name, key);
+    g_array_unref(splices);
+    return is_changed;
+}
+
+void studio_document_seal(StudioDocument *document) {
+    studio_history_seal(document->history);
+}
+
+bool studio_document_undo(StudioDocument *document) {
+    return after_change(document, studio_history_undo(document->history));
+}
+
+bool studio_document_redo(StudioDocument *document) {
+    return after_change(document, studio_history_redo(document->history));
+}
+
+const char *studio_document_undo_name(const StudioDocument *document) {
+    return studio_history_undo_name(document->history);
+}
+
+const char *studio_document_redo_name(const StudioDocument *document) {
+    return studio_history_redo_name(document->history);
+}
+
+uint32_t studio_document_steps(const StudioDocument *document) {
+    return studio_history_count(document->history);
+}
+
+// ---- keeping it --------------------------------------------------------------------------------
+
+bool studio_document_is_saved(const StudioDocument *document) {
+    return !document->is_recovered && studio_history_is_saved(document->history);
+}
+
+void studio_document_mark_unsaved(StudioDocument *document) {
+    document->is_recovered = true;
+    notify(document);
+}
+
+FrStatus studio_document_save(StudioDocument *document, const char *path, FrDiags *diags) {
+    const char *to = path == NULL ? document->path : path;
+    FR_ASSERT(to != NULL);
+    size_t size;
+    const char *text = studio_history_text(document->history, &size);
+    FrStatus status = fr_contents_save(text, size, to, diags);
+    if (status == FR_OK) {
+        bool is_moved = g_strcmp0(to, document->path) != 0;
+        if (is_moved) {
+            adopt_path(document, to);
+            follow_text(document); // the files it names may be others there
+        }
+        document->is_recovered = false;
+        studio_history_mark_saved(document->history);
+        notify(document);
+    }
+    return status;
+}

@@ -1,0 +1,68 @@
+/// @file document.h
+/// The document a window shows: its text with all that can be undone, and what is in it. It belongs
+/// to the main thread; others are handed snapshots of the text.
+#pragma once
+
+#include "frond/contents.h"
+
+typedef struct StudioDocument StudioDocument;
+
+/// Called after every change of the text, the name or what is saved.
+typedef void (*StudioChanged)(void *user);
+
+/// A document without a file; `name` is what it is called until it has one, `folder` where the
+/// files are that it names (NULL: nowhere).
+StudioDocument *studio_document_new(const char *text, size_t size, const char *name,
+                                    const char *folder);
+/// Reads a file. Any text is taken, so that it can be mended.
+FR_MUST_USE FrStatus studio_document_open(const char *path, FrDiags *diags,
+                                          StudioDocument **document);
+void studio_document_free(StudioDocument *document);
+void studio_document_watch(StudioDocument *document, StudioChanged changed, void *user);
+void studio_document_unwatch(StudioDocument *document, StudioChanged changed, void *user);
+
+// ---- what it is --------------------------------------------------------------------------------
+
+/// NULL: it has no file yet.
+const char *studio_document_path(const StudioDocument *document);
+/// Name of the file without its folder, or what it is called without one.
+const char *studio_document_name(const StudioDocument *document);
+const char *studio_document_folder(const StudioDocument *document);
+/// The text now, with a name for messages. Borrowed; immutable, so other threads may keep a
+/// reference.
+FrSource *studio_document_source(const StudioDocument *document);
+/// The elements of the text, or of the last one that was well-formed: then is_broken(), and edits
+/// by elements are refused.
+const FrContents *studio_document_contents(const StudioDocument *document);
+bool studio_document_is_broken(const StudioDocument *document);
+/// Grows with each change of the text.
+uint64_t studio_document_revision(const StudioDocument *document);
+/// XXH3 of the text.
+FrDigest studio_document_digest(const StudioDocument *document);
+
+// ---- changing it -------------------------------------------------------------------------------
+
+/// Does splices (FrSplice; freed and emptied) of the contents as one step. `name` and `key` are as
+/// in studio_history_replace(). False if nothing changed or the text is broken.
+bool studio_document_splice(StudioDocument *document, GArray *splices, const char *name,
+                            const char *key);
+bool studio_document_splice_one(StudioDocument *document, FrSplice splice, const char *name,
+                                const char *key);
+/// Replaces the whole text.
+bool studio_document_replace(StudioDocument *document, const char *text, size_t size,
+                             const char *name, const char *key);
+void studio_document_seal(StudioDocument *document);
+bool studio_document_undo(StudioDocument *document);
+bool studio_document_redo(StudioDocument *document);
+const char *studio_document_undo_name(const StudioDocument *document);
+const char *studio_document_redo_name(const StudioDocument *document);
+uint32_t studio_document_steps(const StudioDocument *document);
+
+// ---- keeping it --------------------------------------------------------------------------------
+
+bool studio_document_is_saved(const StudioDocument *document);
+/// Writes beside `path`, flushes, renames; `path` NULL: to its own file. Later it has that file.
+FR_MUST_USE FrStatus studio_document_save(StudioDocument *document, const char *path,
+                                          FrDiags *diags);
+/// The text is not what its file holds: it was recovered.
+void studio_document_mark_unsaved(StudioDocument *document);

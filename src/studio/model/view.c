@@ -1,0 +1,267 @@
+#include "studio/model/view.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { COARSE_LEVEL = 4, COARSE_SIDES = 3 };
+
+// ---- leaves ------------------------------------------------------------------------------------
+
+// Organs with something to see are drawn by their shape; those within a deformation are not
+// placements of it any more.
+static bool is_drawn(const FrPlant *plant, uint32_t organ) {
+    return plant->organs.shape[organ] < plant->shapes->len &&
+           (plant->organs.flags[organ] & (FR_SHED | FR_HIDDEN)) == 0;
+}
+
+static bool has_deformed_leaves(const FrPlant *plant) {
+    for (uint32_t i = 0; i < plant->organs.count; i++) {
+        if (plant->organs.deformer[i] != FR_NONE) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static uint32_t key_of(const FrPlant *plant, uint32_t organ) {
+    uint32_t material = plant->organs.material[organ];
+    uint32_t materials = plant->materials->len + 1;
+    return plant->organs.shape[organ] * materials +
+           (material < plant->materials->len ? material : materials - 1);
+}
+
+static StudioLeaf leaf_of(const FrPlant *plant, uint32_t organ) {
+    vec3s at;
+    versors turn;
+    fr_plant_organ_pose(plant, organ, &at, &turn);
+    return (StudioLeaf){
+        {at.x, at.y, at.z}, plant->organs.scale[organ], {turn.x, turn.y, turn.z, turn.w}};
+}
+
+// A step through `count` that meets every number once and leaves no gaps for long: near the golden
+// section of it, and without a common divisor.
+static uint32_t even_step(uint32_t count) {
+    uint32_t step = (uint32_t)(0.6180339887 * count) | 1;
+    for (;; step++) {
+        uint32_t a = count, b = step;
+        while (b != 0) {
+            uint32_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        if (a == 1) {
+            return step;
+        }
+    }
+}
+
+// Sorts leaves into batches by counting, and spreads each batch.
+static void fill_leaves(StudioPlant *view) {
+    const FrPlant *plant = view->plant;
+    uint32_t materials = plant->materials->len + 1;
+    uint32_t keys = plant->shapes->len * materials;
+    uint32_t *of_key = g_new0(uint32_t, (gsize)keys + 1); // batch + 1
+    for (uint32_t i = 0; i < plant->organs.count; i++) {
+        if (!is_drawn(plant, i)) {
+            continue;
+        }
+        uint32_t key = key_of(plant, i);
+        if (of_key[key] == 0) {
+            uint32_t material = key % materials;
+            StudioBatch batch = {key / materials, material == materials - 1 ? FR_NONE : material, 0,
+                                 0};
+            g_array_append_val(view->batches, batch);
+            of_key[key] = view->batches->len;
+        }
+        g_array_index(view->batches, StudioBatch, of_key[key] - 1).count++;
+    }
+    uint32_t total = 0;
+    uint32_t *steps = g_new(uint32_t, view->batches->len + 1);
+    uint32_t *places = g_new0(uint32_t, view->batches->len + 1);
+    for (guint b = 0; b < view->batches->len; b++) {
+        StudioBatch *batch = &g_array_index(view->batches, StudioBatch, b);
+        batch->first = total;
+        total += batch->count;
+        steps[b] = even_step(batch->count);
+    }
+    g_array_set_size(view->leaves, total);
+    for (uint32_t i = 0; i < plant->organs.count; i++) {
+        if (is_drawn(plant, i)) {
+            uint32_t b = of_key[key_of(plant, i)] - 1;
+            const StudioBatch *batch = &g_array_index(view->batches, StudioBatch, b);
+            g_array_index(view->leaves, StudioLeaf, batch->first + places[b]) = leaf_of(plant, i);
+            places[b] = (uint32_t)(((uint64_t)places[b] + steps[b]) % batch->count);
+        }
+    }
+    g_free(steps);
+    g_free(places);
+    g_free(of_key);
+}
+
+static FrMesh *shape_at(const FrPlant *plant, uint32_t shape, int64_t lod,
+                        const FrContext *context) {
+    FrSkinParams params = fr_skin_default();
+    params.lod = lod;
+    FrMesh *mesh;
+    FrStatus status = fr_skin_shape(plant, shape, &params, FR_UP_Z, context, &mesh);
+    return status == FR_OK ? mesh : NULL;
+}
+
+// ---- looks -------------------------------------------------------------------------------------
+
+FrDigest studio_look_digest(const FrMaterial *material, const char *folder) {
+    const FrParamTable *table = fr_material_table();
+    FrDigest digest = fr_digest(0, folder, strlen(folder));
+    for (size_t i = 0; i < table->count; i++) {
+        digest = fr_param_digest(digest, &table->rows[i], fr_material_params(material));
+    }
+    return digest;
+}
+
+static float linear(float srgb) {
+    return srgb <= 0.04045f ? srgb / 12.92f : powf((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+// Until its picture is there, what is made by the program has a typical colour.
+static vec3s tint_of(const FrMaterial *material) {
+    const FrMaterialParams *params = fr_material_params(material);
+    vec3s colour = params->colour;
+    bool is_white = colour.x > 0.99f && colour.y > 0.99f && colour.z > 0.99f;
+    if (is_white && params->texture == FR_TEXTURE_LEAF) {
+        colour = (vec3s){{0.30f, 0.46f, 0.18f}};
+    } else if (is_white && params->texture >= FR_TEXTURE_BARK_FURROWED) {
+        colour = (vec3s){{0.42f, 0.35f, 0.28f}};
+    }
+    return colour;
+}
+
+static StudioLook look_of(FrMaterial *material) {
+    const FrMaterialParams *params = fr_material_params(material);
+    vec3s colour = tint_of(material);
+    return (StudioLook){
+        .material = fr_material_ref(material),
+        .digest = studio_look_digest(material, ""),
+        .tint = {linear(colour.x), linear(colour.y), linear(colour.z)},
+        .alpha_cutoff = (float)params->alpha_cutoff,
+        .translucency = (float)params->translucency,
+        .roughness = (float)params->roughness,
+    };
+}
+
+static void look_clear(gpointer look) {
+    fr_material_unref(((StudioLook *)look)->material);
+}
+
+// ---- skeleton ----------------------------------------------------------------------------------
+
+static void add_point(GArray *points, vec3s at, float order) {
+    StudioPoint point = {{at.x, at.y, at.z}, order};
+    g_array_append_val(points, point);
+}
+
+static void fill_points(StudioPlant *view) {
+    const FrPlant *plant = view->plant;
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        uint32_t axis = plant->nodes.axis[i];
+        if (((plant->nodes.flags[i] | plant->axes.flags[axis]) & (FR_SHED | FR_HIDDEN)) != 0) {
+            continue;
+        }
+        bool is_first = plant->axes.first[axis] == i;
+        uint32_t parent = plant->nodes.parent[i];
+        float order = (float)plant->axes.order[axis];
+        add_point(view->points,
+                  is_first ? fr_plant_axis_origin(plant, axis) : plant->nodes.position[parent],
+                  order);
+        add_point(view->points, plant->nodes.position[i], order);
+    }
+}
+
+// ---- views -------------------------------------------------------------------------------------
+
+static void shape_clear(gpointer shape) {
+    fr_mesh_free(((StudioShape *)shape)->fine);
+    fr_mesh_free(((StudioShape *)shape)->coarse);
+}
+
+static void plant_free(gpointer data) {
+    StudioPlant *view = data;
+    fr_mesh_free(view->foliage);
+    fr_mesh_free(view->coarse_wood);
+    g_array_unref(view->leaves);
+    g_array_unref(view->batches);
+    g_array_unref(view->shapes);
+    g_array_unref(view->looks);
+    g_array_unref(view->points);
+    g_free(view);
+}
+
+static void add_shapes(StudioPlant *view, const FrContext *context) {
+    g_array_set_size(view->shapes, view->plant->shapes->len);
+    for (guint b = 0; b < view->batches->len; b++) {
+        uint32_t shape = g_array_index(view->batches, StudioBatch, b).shape;
+        StudioShape *made = &g_array_index(view->shapes, StudioShape, shape);
+        if (made->fine == NULL) {
+            made->fine = shape_at(view->plant, shape, 0, context);
+            made->coarse = shape_at(view->plant, shape, COARSE_LEVEL, context);
+        }
+    }
+}
+
+static StudioPlant *plant_new(const FrPlant *plant, const FrSkin *wood, const FrContext *context) {
+    StudioPlant *view = g_new0(StudioPlant, 1);
+    view->plant = plant;
+    view->wood = wood;
+    view->leaves = g_array_new(FALSE, FALSE, sizeof(StudioLeaf));
+    view->batches = g_array_new(FALSE, TRUE, sizeof(StudioBatch));
+    view->shapes = g_array_new(FALSE, TRUE, sizeof(StudioShape));
+    view->looks = g_array_new(FALSE, FALSE, sizeof(StudioLook));
+    view->points = g_array_new(FALSE, FALSE, sizeof(StudioPoint));
+    g_array_set_clear_func(view->shapes, shape_clear);
+    g_array_set_clear_func(view->looks, look_clear);
+    for (guint i = 0; i < plant->materials->len; i++) {
+        StudioLook look = look_of(g_ptr_array_index(plant->materials, i));
+        g_array_append_val(view->looks, look);
+    }
+    if (has_deformed_leaves(plant)) {
+        FrSkinParams params = fr_skin_default();
+        FrStatus status = fr_skin_plant(plant, &params, FR_UP_Z, context, &view->foliage);
+        view->foliage = status == FR_OK ? view->foliage : NULL;
+    } else {
+        fill_leaves(view);
+        add_shapes(view, context);
+    }
+    fill_points(view);
+    return view;
+}
+
+StudioView *studio_view_new(const FrRebuild *rebuild, const FrContext *context) {
+    StudioView *view = g_new0(StudioView, 1);
+    view->scene = fr_rebuild_scene(rebuild);
+    view->plants = g_ptr_array_new_with_free_func(plant_free);
+    for (guint i = 0; i < view->scene->plants->len; i++) {
+        const FrPlant *plant = g_array_index(view->scene->plants, FrScenePlant, i).plant;
+        g_ptr_array_add(view->plants, plant_new(plant, fr_rebuild_skin(rebuild, i), context));
+    }
+    return view;
+}
+
+void studio_view_add_coarse(StudioView *view, const FrContext *context) {
+    FrSkinParams params = fr_skin_default();
+    params.lod = COARSE_LEVEL;
+    params.min_sides = COARSE_SIDES;
+    params.foliage = false;
+    params.collar = 0;
+    for (guint i = 0; i < view->plants->len; i++) {
+        StudioPlant *plant = g_ptr_array_index(view->plants, i);
+        FrStatus status =
+            fr_skin_plant(plant->plant, &params, FR_UP_Z, context, &plant->coarse_wood);
+        plant->coarse_wood = status == FR_OK ? plant->coarse_wood : NULL;
+    }
+}
+
+void studio_view_free(StudioView *view) {
+    if (view != NULL) {
+        g_ptr_array_unref(view->plants);
+        g_free(view);
+    }
+}

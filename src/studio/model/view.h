@@ -1,0 +1,63 @@
+/// @file view.h
+/// What a build hands to whoever draws it: tubes as they are kept, leaves as placements of a few
+/// shapes, lines of the skeleton, and how materials look.
+#pragma once
+
+#include "frond/rebuild.h"
+
+/// 32 bytes, as a graphics card takes it.
+typedef struct StudioLeaf {
+    float at[3];
+    float scale;
+    float turn[4]; ///< quaternion x, y, z, w
+} StudioLeaf;
+
+/// Leaves of one shape and material: `count` from `first` on, in an order such that the first k of
+/// them are spread evenly over all.
+typedef struct StudioBatch {
+    uint32_t shape, material;
+    uint32_t first, count;
+} StudioBatch;
+
+/// A shape at its full detail and as coarse as can be; NULL where it could not be made.
+typedef struct StudioShape {
+    FrMesh *fine, *coarse;
+} StudioShape;
+
+typedef struct StudioLook {
+    FrMaterial *material; ///< a reference
+    FrDigest digest;      ///< of all that its pictures depend on
+    float tint[3];        ///< linear; of what has no picture
+    float alpha_cutoff, translucency, roughness;
+} StudioLook;
+
+/// A point of the skeleton: lines run from each first to each second of a pair.
+typedef struct StudioPoint {
+    float at[3];
+    float order; ///< botanical, of its axis
+} StudioPoint;
+
+typedef struct StudioPlant {
+    const FrPlant *plant; ///< borrowed
+    const FrSkin *wood;   ///< borrowed
+    FrMesh *coarse_wood;  ///< for while the view moves; NULL: not made yet
+    FrMesh *foliage;      ///< of a plant whose leaves are deformed; else NULL
+    GArray *leaves;       ///< StudioLeaf
+    GArray *batches;      ///< StudioBatch
+    GArray *shapes;       ///< StudioShape, by shape of the plant
+    GArray *looks;        ///< StudioLook, by material of the plant
+    GArray *points;       ///< StudioPoint
+} StudioPlant;
+
+typedef struct StudioView {
+    const FrScene *scene; ///< borrowed
+    GPtrArray *plants;    ///< StudioPlant *, as many as the scene has
+} StudioView;
+
+/// All but coarse_wood, of what a rebuild holds; borrowed from it until its next update.
+StudioView *studio_view_new(const FrRebuild *rebuild, const FrContext *context);
+/// Makes the coarse wood. Stops when cancelled; what is missing then stays NULL.
+void studio_view_add_coarse(StudioView *view, const FrContext *context);
+void studio_view_free(StudioView *view);
+/// The digest of all that a material's pictures depend on.
+FrDigest studio_look_digest(const FrMaterial *material, const char *folder);

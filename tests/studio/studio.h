@@ -1,0 +1,36 @@
+/// @file studio.h
+/// What tests of the studio's model share.
+#pragma once
+
+#include "studio/model/builder.h"
+#include "studio/model/commands.h"
+
+#include <string.h>
+
+/// A file of the project. Free with g_free().
+static inline char *project_file(const char *name) {
+    const char *source = g_getenv("FROND_SOURCE");
+    return g_build_filename(source == NULL ? "." : source, name, NULL);
+}
+
+static inline StudioDocument *open_example(const char *name) {
+    char *path = project_file(name);
+    StudioDocument *document;
+    g_assert_cmpint(studio_document_open(path, NULL, &document), ==, FR_OK);
+    g_free(path);
+    return document;
+}
+
+static inline const char *text_of(const StudioDocument *document) {
+    return fr_source_text(studio_document_source(document), NULL);
+}
+
+static inline uint32_t first_plant(const StudioDocument *document) {
+    return fr_contents_child(studio_document_contents(document), 0, "plant");
+}
+
+static inline uint32_t element_of(const StudioDocument *document, const char *id) {
+    uint32_t element = fr_contents_find(studio_document_contents(document), 0, id);
+    g_assert_cmpuint(element, !=, FR_NONE);
+    return element;
+}

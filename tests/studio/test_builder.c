@@ -1,0 +1,229 @@
+/// Builds off the main thread: the newest is shown, the last good one stays, all can be stopped.
+#include "studio.h"
+
+#include <math.h>
+
+static void wake(void *user) {
+    g_atomic_int_inc((gint *)user);
+}
+
+typedef struct Fixture {
+    gint wakes;
+    StudioBuilder *builder;
+} Fixture;
+
+static void set_up(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    fixture->wakes = 0;
+    fixture->builder = studio_builder_new(wake, &fixture->wakes);
+}
+
+static void tear_down(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    studio_builder_free(fixture->builder);
+}
+
+static void request(Fixture *fixture, const StudioDocument *document, double time) {
+    studio_builder_request(fixture->builder, studio_document_source(document),
+                           studio_document_folder(document), studio_document_revision(document),
+                           time);
+}
+
+static const StudioBuilt *await(Fixture *fixture) {
+    for (int i = 0; i < 60000; i++) {
+        const StudioBuilt *built = studio_builder_collect(fixture->builder);
+        if (built != NULL) {
+            return built;
+        }
+        g_usleep(1000);
+    }
+    g_assert_not_reached();
+}
+
+static uint64_t count_of(const StudioBuilt *built, const char *component) {
+    for (guint i = 0; i < built->counts->len; i++) {
+        const StudioCount *count = &g_array_index(built->counts, StudioCount, i);
+        if (strcmp(count->component, component) == 0) {
+            return count->instances;
+        }
+    }
+    return 0;
+}
+
+static void test_builds(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    StudioDocument *document = open_example("examples/figure2.frond");
+    request(fixture, document, NAN);
+    const StudioBuilt *built = await(fixture);
+    g_assert_cmpint(built->status, ==, FR_OK);
+    g_assert_cmpuint(built->revision, ==, studio_document_revision(document));
+    g_assert_cmpuint(built->view->plants->len, ==, 1);
+    g_assert_cmpuint(count_of(built, "D"), ==, 9);
+    studio_builder_release(fixture->builder);
+    g_assert_cmpint(g_atomic_int_get(&fixture->wakes), >=, 1);
+    studio_document_free(document);
+}
+
+static void test_leaves(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    StudioDocument *document = open_example("examples/chestnut.frond");
+    request(fixture, document, NAN);
+    const StudioBuilt *built = await(fixture);
+    const StudioPlant *plant = g_ptr_array_index(built->view->plants, 0);
+    g_assert_cmpuint(plant->leaves->len, ==, 207000);
+    // A tenth of each batch is spread over the whole crown.
+    const StudioBatch *batch = &g_array_index(plant->batches, StudioBatch, 0);
+    float low = INFINITY, high = -INFINITY, lowest = INFINITY, highest = -INFINITY;
+    for (uint32_t i = 0; i < batch->count; i++) {
+        float z = g_array_index(plant->leaves, StudioLeaf, batch->first + i).at[2];
+        lowest = MIN(lowest, z);
+        highest = MAX(highest, z);
+        if (i < batch->count / 10) {
+            low = MIN(low, z);
+            high = MAX(high, z);
+        }
+    }
+    g_assert_cmpfloat(high - low, >, 0.9f * (highest - lowest));
+    studio_builder_release(fixture->builder);
+    built = await(fixture);
+    g_assert_true(built->is_coarse);
+    plant = g_ptr_array_index(built->view->plants, 0);
+    g_assert_nonnull(plant->coarse_wood);
+    g_assert_cmpuint(plant->coarse_wood->index_count, >, 0);
+    studio_builder_release(fixture->builder);
+    studio_document_free(document);
+}
+
+static void test_last_good_stays(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    StudioDocument *document = open_example("examples/figure2.frond");
+    request(fixture, document, NAN);
+    await(fixture);
+    studio_builder_release(fixture->builder);
+    studio_set(document, element_of(document, "B"), "length", "2 +", false);
+    request(fixture, document, NAN);
+    const StudioBuilt *built = await(fixture);
+    g_assert_cmpint(built->status, ==, FR_ERR_DOCUMENT);
+    g_assert_null(built->view);
+    g_assert_cmpuint(fr_diags_error_count(built->diags), ==, 1);
+    FrSpan span = fr_diags_get(built->diags, 0)->span;
+    char *attribute;
+    fr_contents_around(studio_document_contents(document), span.begin, &attribute);
+    g_assert_cmpstr(attribute, ==, "length");
+    g_free(attribute);
+    studio_builder_release(fixture->builder);
+    studio_document_undo(document);
+    request(fixture, document, NAN);
+    built = await(fixture);
+    g_assert_nonnull(built->view);
+    studio_builder_release(fixture->builder);
+    studio_document_free(document);
+}
+
+static void test_newest_only(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    StudioDocument *document = open_example("examples/figure2.frond");
+    char value[8];
+    for (int i = 1; i <= 100; i++) {
+        g_snprintf(value, sizeof value, "%d", i);
+        studio_set(document, element_of(document, "B"), "length", value, true);
+        request(fixture, document, NAN);
+    }
+    uint64_t last = 0;
+    int collected = 0;
+    while (last != studio_document_revision(document)) {
+        const StudioBuilt *built = await(fixture);
+        g_assert_cmpuint(built->revision, >, last);
+        last = built->revision;
+        collected++;
+        studio_builder_release(fixture->builder);
+    }
+    g_assert_cmpint(collected, <=, 3);
+    studio_document_free(document);
+}
+
+static void test_cancel(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    StudioDocument *document = open_example("examples/chestnut.frond");
+    studio_set(document, element_of(document, "shoot"), "number", "700", false);
+    request(fixture, document, NAN);
+    double fraction, seconds;
+    while (studio_builder_is_busy(fixture->builder, &fraction, &seconds) && seconds < 0.01) {
+        g_usleep(500);
+    }
+    studio_builder_cancel(fixture->builder);
+    const StudioBuilt *built = await(fixture);
+    g_assert_cmpint(built->status, ==, FR_CANCELLED);
+    studio_builder_release(fixture->builder);
+    studio_document_free(document);
+}
+
+static void test_time(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    static const char text[] = "<frond version='1'><plant id='p' age='0'><pgraph><camera id='r'/>"
+                               "<horn id='h'/><horn id='late' birth='5'/><link from='r' to='h'/>"
+                               "<link from='h' to='late'/></pgraph></plant><oops/></frond>";
+    GString *right = g_string_new(text);
+    g_string_replace(right, "<oops/>", "", 0);
+    StudioDocument *document = studio_document_new(right->str, right->len, "t", NULL);
+    request(fixture, document, NAN);
+    g_assert_cmpuint(count_of(await(fixture), "late"), ==, 0);
+    studio_builder_release(fixture->builder);
+    request(fixture, document, 8);
+    g_assert_cmpuint(count_of(await(fixture), "late"), ==, 1);
+    studio_builder_release(fixture->builder);
+    studio_document_free(document);
+    // Places stay those of the document.
+    document = studio_document_new(text, strlen(text), "t", NULL);
+    request(fixture, document, 8);
+    const StudioBuilt *built = await(fixture);
+    FrSpan span = fr_diags_get(built->diags, 0)->span;
+    g_assert_cmpint(strncmp(text + span.begin, "oops", 4), ==, 0);
+    studio_builder_release(fixture->builder);
+    studio_document_free(document);
+    g_string_free(right, TRUE);
+}
+
+static void test_pictures(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    StudioDocument *document = open_example("examples/sunflower.frond");
+    request(fixture, document, NAN);
+    const StudioBuilt *built = await(fixture);
+    const StudioPlant *plant = g_ptr_array_index(built->view->plants, 0);
+    guint looks = plant->looks->len, pictures = 0;
+    g_assert_cmpuint(looks, >, 0);
+    studio_builder_release(fixture->builder);
+    StudioPicture picture;
+    for (int i = 0; i < 60000 && pictures < looks; i++) {
+        if (studio_builder_take_picture(fixture->builder, &picture)) {
+            pictures++;
+            fr_image_unref(picture.image);
+        } else {
+            g_usleep(1000);
+        }
+    }
+    g_assert_cmpuint(pictures, ==, looks);
+    g_assert_false(studio_builder_is_painting(fixture->builder));
+    // The same looks are not painted again.
+    studio_set(document, first_plant(document), "seed", "77", false);
+    request(fixture, document, NAN);
+    await(fixture);
+    studio_builder_release(fixture->builder);
+    g_assert_false(studio_builder_is_painting(fixture->builder));
+    studio_document_free(document);
+}
+
+#define ADD(name, function) g_test_add(name, Fixture, NULL, set_up, function, tear_down)
+
+int main(int argc, char **argv) {
+    g_test_init(&argc, &argv, NULL);
+    ADD("/studio/builder/a document becomes a view with counts", test_builds);
+    ADD("/studio/builder/the first leaves of a batch are spread over all", test_leaves);
+    ADD("/studio/builder/a mistake has its place and does not stop the next build",
+        test_last_good_stays);
+    ADD("/studio/builder/of many requests the last is built", test_newest_only);
+    ADD("/studio/builder/a long build can be stopped", test_cancel);
+    ADD("/studio/builder/another time moves no place of a diagnostic", test_time);
+    ADD("/studio/builder/pictures are made once", test_pictures);
+    return g_test_run();
+}
