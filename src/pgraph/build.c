@@ -5,6 +5,7 @@
 #include "pgraph/expand.h"
 #include "pgraph/global.h"
 #include "pgraph/kept.h"
+#include "pgraph/pipes.h"
 #include "pgraph/ramp.h"
 
 #include <string.h>
@@ -36,6 +37,32 @@ static FrStatus expand_or_share(FrBuild *build) {
     return status;
 }
 
+// Takes away what stems would have gone on with behind what they ended at, and all it bears. False
+// if there is nothing to take away.
+static bool drop_ended(FrPlant *plant) {
+    uint16_t all = 0;
+    for (uint32_t node = 0; node < plant->nodes.count; node++) {
+        all = (uint16_t)(all | plant->nodes.flags[node]);
+    }
+    if ((all & FR_SHED) != 0) {
+        fr_plant_compact(plant);
+    }
+    return (all & FR_SHED) != 0;
+}
+
+// What can only be done once all is there.
+static void change_rows(FrBuild *build) {
+    FrExpansion *expansion = &build->expansion;
+    bool is_changed = expansion->fields->len > 0 && drop_ended(expansion->plant);
+    if (fr_has_pipes(expansion)) {
+        fr_pipes_apply(expansion);
+        is_changed = true;
+    }
+    if (build->made != NULL) {
+        build->made->is_changed = is_changed;
+    }
+}
+
 static FrStatus prepare_and_expand(FrBuild *build, const FrRecursions *recursions) {
     FrExpansion *expansion = &build->expansion;
     const FrContext *context = build->context;
@@ -59,6 +86,9 @@ static FrStatus prepare_and_expand(FrBuild *build, const FrRecursions *recursion
     if (status == FR_OK) {
         fr_build_finish_edits(build);
     }
+    if (status == FR_OK) {
+        change_rows(build);
+    }
     g_free(build->has_place);
     g_free(expansion->places);
     fr_edits_free(edits);
@@ -70,19 +100,6 @@ static FrStatus prepare_and_expand(FrBuild *build, const FrRecursions *recursion
     g_free(expansion->faults);
     fr_prepared_free(prepared, fr_pgraph_count(expansion->graph));
     return status;
-}
-
-// Takes away what stems would have gone on with behind what they ended at, and all it bears. False
-// if there is nothing to take away.
-static bool drop_ended(FrPlant *plant) {
-    uint16_t all = 0;
-    for (uint32_t node = 0; node < plant->nodes.count; node++) {
-        all = (uint16_t)(all | plant->nodes.flags[node]);
-    }
-    if ((all & FR_SHED) != 0) {
-        fr_plant_compact(plant);
-    }
-    return (all & FR_SHED) != 0;
 }
 
 // The plant of build->expansion is there afterwards if the graph was right, finished or not.
@@ -102,11 +119,6 @@ static FrStatus run(FrBuild *build, FrUnrolled *unrolled) {
         build->expansion.unrolled = unrolled;
         status = fr_unroll(unrolled, graph, &recursions, build->context);
         status = status == FR_OK ? prepare_and_expand(build, &recursions) : status;
-        bool has_fields = build->expansion.fields->len > 0;
-        bool is_cut = status == FR_OK && has_fields && drop_ended(build->expansion.plant);
-        if (build->made != NULL) {
-            build->made->is_cut = is_cut;
-        }
         g_array_unref(build->expansion.fields);
     }
     fr_recursions_clear(&recursions);
@@ -149,7 +161,7 @@ FrStatus fr_pgraph_rebuild(const FrPgraph *graph, const FrPgraphBuild *last,
     FrBuild build = {.context = context,
                      .counts = &kept->counts,
                      .made = kept,
-                     .last = last != NULL && !last->is_cut ? last : NULL,
+                     .last = last != NULL && !last->is_changed ? last : NULL,
                      .expansion = {.graph = graph, .progress = context->progress}};
     FrStatus status = run(&build, &kept->unrolled);
     *made = status == FR_OK ? kept : NULL;

@@ -90,6 +90,12 @@ void fr_field_light(const FrFields *fields, const double at[3], double light[3])
             }
             return;
         }
+        if (params->sun) {
+            for (int r = 0; r < 3; r++) {
+                light[r] = dot(world->axes[r], world->sun);
+            }
+            return;
+        }
         const FrExpr *const map[3] = {params->light_x, params->light_y, params->light_z};
         double local[3];
         fr_field_local(world, at, local);

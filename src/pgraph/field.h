@@ -14,6 +14,7 @@ typedef struct FrField {
     double axes[3][3];              ///< … columns are its axes
     double scale;                   ///< metres of a unit of its coordinates
     double strength, radius, pitch; ///< of a Force
+    double sun[3];                  ///< of a World: towards it, in its own coordinates
 } FrField;
 
 /// What acts on one stem or leaf.

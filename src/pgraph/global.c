@@ -3,9 +3,11 @@
 #include "pgraph/global.h"
 
 #include "frond/lattice.h"
+#include "pgraph/preset.h"
 #include "plant/frames.h"
 
 #include <math.h>
+#include <string.h>
 
 // ---- control points ---------------------------------------------------------------------------
 
@@ -126,10 +128,9 @@ FrStatus fr_check_global(const FrPrototype *prototype, FrDiags *diags) {
 // ---- preparing --------------------------------------------------------------------------------
 
 // Control points go where the functions take them.
-static void map_points(FrLattice *lattice, const FrFfdParams *ffd, uint32_t component,
+static void map_points(FrLattice *lattice, FrExpr *const map[3], uint32_t component,
                        FrEvaluator *evaluator) {
     static const FrVars nothing = {0};
-    FrExpr *const map[3] = {ffd->to_x, ffd->to_y, ffd->to_z};
     for (uint32_t p = 0; p < fr_lattice_count(lattice); p++) {
         double *point = lattice->points[p];
         const double values[4] = {point[0], point[1], point[2], 1};
@@ -144,6 +145,17 @@ static void map_points(FrLattice *lattice, const FrFfdParams *ffd, uint32_t comp
     }
 }
 
+// The functions that an FFD moves points by, as its own references.
+static void own_map(const FrFfdParams *ffd, FrExpr *map[3]) {
+    if (fr_preset_map(ffd, map)) {
+        return;
+    }
+    FrExpr *const own[3] = {ffd->to_x, ffd->to_y, ffd->to_z};
+    for (int k = 0; k < 3; k++) {
+        map[k] = own[k] != NULL ? fr_expr_ref(own[k]) : NULL;
+    }
+}
+
 static void prepare_scope(FrPrepared *made, const FrPrototype *prototype, uint32_t component,
                           FrPlant *plant, FrEvaluator *evaluator) {
     const FrScopeParams *scope = prototype->params;
@@ -155,22 +167,25 @@ static void prepare_scope(FrPrepared *made, const FrPrototype *prototype, uint32
     };
     bool is_whole = make_lattice(&deformation.lattice, scope);
     FR_ASSERT(is_whole);
+    FrExpr *map[3] = {NULL};
     if (prototype->kind == FR_COMPONENT_HYPERPATCH) {
         const FrHyperpatchParams *patch = prototype->params;
         FrStatus status = move_points(&deformation.lattice, patch->points, prototype, NULL);
         FR_ASSERT(status == FR_OK);
     } else {
         const FrFfdParams *ffd = prototype->params;
+        own_map(ffd, map);
         if (ffd->form == FR_FFD_BY_LATTICE) {
-            map_points(&deformation.lattice, ffd, component, evaluator);
+            map_points(&deformation.lattice, map, component, evaluator);
         } else {
             deformation.kind = FR_DEFORM_FUNCTIONS;
-            deformation.map[0] = ffd->to_x;
-            deformation.map[1] = ffd->to_y;
-            deformation.map[2] = ffd->to_z;
+            memcpy(deformation.map, map, sizeof map);
         }
     }
     made->deformation = fr_plant_add_deformation(plant, &deformation);
+    for (int k = 0; k < 3; k++) {
+        fr_expr_unref(map[k]);
+    }
     made->step = scope->step;
 }
 
@@ -241,7 +256,14 @@ static void make_field(const FrExpansion *expansion, uint32_t row, FrPose pose,
             field.axes[r][c] = (double)axes[c].raw[r];
         }
     }
-    if (prepared->kind == FR_COMPONENT_FORCE) {
+    if (prepared->kind == FR_COMPONENT_WORLD) {
+        const FrWorldParams *world = prepared->params;
+        double azimuth = fr_value(evaluator, &world->sun_azimuth, FR_WORLD_sun_azimuth);
+        double elevation = fr_value(evaluator, &world->sun_elevation, FR_WORLD_sun_elevation);
+        field.sun[0] = cos(elevation) * sin(azimuth);
+        field.sun[1] = cos(elevation) * cos(azimuth);
+        field.sun[2] = sin(elevation);
+    } else if (prepared->kind == FR_COMPONENT_FORCE) {
         const FrForceParams *force = prepared->params;
         for (int r = 0; r < 3; r++) {
             for (int c = 0; c < 3; c++) {

@@ -140,6 +140,43 @@ static G_GNUC_NO_INLINE FrPose edited(const FrExpansion *expansion, uint32_t row
     return pose;
 }
 
+// Turns one of a pose's own axes to those of the plant, one after the other.
+static G_GNUC_NO_INLINE FrPose drawn(const FrExpansion *expansion, FrPose pose,
+                                     const FrBasicParams *basic, FrEvaluator *evaluator) {
+    const double parts[] = {
+        fr_value(evaluator, &basic->tropism_x, FR_BASIC_tropism_x),
+        fr_value(evaluator, &basic->tropism_y, FR_BASIC_tropism_y),
+        fr_value(evaluator, &basic->tropism_z, FR_BASIC_tropism_z),
+    };
+    const FrNodes *nodes = &expansion->plant->nodes;
+    versors bearer = pose.bearer != FR_NONE ? nodes->frame[pose.bearer] : identity;
+    versors frame = fr_frame_step(bearer, pose.rotation);
+    for (int k = 0; k < 3; k++) {
+        vec3s own = {{0, 0, 0}}, world = {{0, 0, 0}};
+        own.raw[basic->tropism_axis] = 1;
+        world.raw[k] = parts[k] < 0 ? -1 : 1;
+        frame = fr_turned_towards(frame, fr_turned(frame, own), world, fabs(parts[k]));
+        pose.is_turned_or_moved |= parts[k] != 0;
+    }
+    versors back = {{-bearer.x, -bearer.y, -bearer.z, bearer.w}};
+    pose.rotation = fr_frame_step(back, frame);
+    return pose;
+}
+
+versors fr_turned_towards(versors frame, vec3s from, vec3s to, double part) {
+    if (part == 0) {
+        return frame;
+    }
+    vec3s axis = glms_vec3_cross(from, to);
+    float sine = glms_vec3_norm(axis);
+    float angle = atan2f(sine, glms_vec3_dot(from, to));
+    // Straight away from it, about whichever of its own axes is across.
+    vec3s aside = fabsf(glms_vec3_dot(from, fr_frame_left(frame))) < 0.7f ? fr_frame_left(frame)
+                                                                          : fr_frame_up(frame);
+    axis = sine > 1e-6f ? glms_vec3_divs(axis, sine) : aside;
+    return fr_frame_step(fr_rotation_about(axis, (float)part * angle), frame);
+}
+
 FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
     const FrLevel *level = &expansion->level;
     const FrStage *stage = fr_instance_stage(expansion, row);
@@ -170,6 +207,9 @@ FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator 
         pose.is_turned_or_moved |=
             x != 0 || y != 0 || z != 0 || by.x != 0 || by.y != 0 || by.z != 0;
     }
+    if (prepared->is_drawn) {
+        pose = drawn(expansion, pose, basic, evaluator);
+    }
     pose.scale *= FR_GET(scale);
     if (prepared->grows && !prepared->is_stem) {
         pose.scale *= fr_growth_now(prepared, evaluator);
@@ -182,15 +222,40 @@ FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator 
     return pose;
 }
 
-FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, double scale) {
+// How far it is from a stem's base straight ahead to what stems end at; less than 0: nowhere.
+static double way_ahead(const FrExpansion *expansion, uint32_t row, FrPose pose) {
+    enum { FAR = 1000 };
+    const FrNodes *nodes = &expansion->plant->nodes;
+    versors frame = pose.rotation;
+    vec3s at = pose.offset;
+    if (pose.bearer != FR_NONE) {
+        frame = fr_frame_step(nodes->frame[pose.bearer], frame);
+        at = glms_vec3_add(nodes->position[pose.bearer], fr_turned(nodes->frame[pose.bearer], at));
+    }
+    FrFields fields = fr_instance_fields(expansion, row, NULL);
+    double free = FAR, before;
+    do { // the shorter the way that is looked at, the better it is known
+        uint64_t out = 0;
+        bool is_cut;
+        before = free;
+        free = fr_field_free(&fields, frame, at, before, &out, &is_cut);
+        free = free < before ? free + 1e-3 * before : before;
+    } while (free < 0.5 * before);
+    return free < FAR ? free - 1e-3 * before : -1;
+}
+
+FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, FrPose pose) {
     const FrLevel *level = &expansion->level;
+    const FrPrepared *prepared = fr_stage_prepared(expansion, level->stage[row]);
     const FrGraphEdit *edit =
         level->edit[row] != FR_EDIT_NOWHERE ? fr_instance_edit(expansion, row) : NULL;
     return (FrStemBase){
         .bend = edit != NULL ? edit->params.bend : 0,
         .bend_aside = edit != NULL ? edit->params.bend_aside : 0,
         .axis = edit != NULL ? edit->axis : NULL,
-        .scale = scale,
+        .scale = pose.scale,
+        .ahead = prepared->is_ahead ? way_ahead(expansion, row, pose) : -1,
+        .place = (double)level->x[row],
         .parent_length = (double)level->parent_length[row],
         .parent_radius = (double)level->parent_radius[row],
         .stretch = (double)level->stretch[row],
@@ -199,6 +264,9 @@ FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, dou
         .is_in_field = level->field[row] != FR_NONE,
         .order = level->order[row],
         .is_on_ground = level->bearer[row] == FR_NONE,
+        .heading = pose.bearer != FR_NONE && prepared->is_aligned
+                       ? fr_frame_heading(expansion->plant->nodes.frame[pose.bearer])
+                       : (vec3s){{0, 0, 1}},
     };
 }
 

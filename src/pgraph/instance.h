@@ -73,8 +73,10 @@ void fr_instance_enter(const FrExpansion *expansion, uint32_t row, FrEvaluator *
 void fr_place_set(FrVars *vars, vec3s place);
 /// Its pose; the variables must be set.
 FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
-/// What its stem grows from.
-FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, double scale);
+/// What its stem grows from, where it stands with that pose.
+FrStemBase fr_instance_stem_base(const FrExpansion *expansion, uint32_t row, FrPose pose);
+/// Turns `frame` so that its direction `from` comes nearer to `to` by `part` of the angle.
+versors fr_turned_towards(versors frame, vec3s from, vec3s to, double part);
 /// The fields it grows in.
 FrFields fr_instance_fields(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator);
 /// The material of what it makes, and that of its colour.

@@ -31,7 +31,7 @@ struct FrPgraphBuild {
     FrDigest tables;     ///< the indices that rows hold: of shapes, profiles, materials …
     bool has_own_shapes; ///< of single leaves, besides those of components
     bool has_faults;     ///< expressions without value: warned of anew by a whole build only
-    bool is_cut;         ///< rows were taken away afterwards: nothing can be taken over from it
+    bool is_changed;     ///< its rows were, once all were there: nothing can be taken over from it
     FrLimits limits;
     uint64_t taken_over; ///< instances
 };

@@ -129,15 +129,6 @@ static void write_axis(const FrExpansion *expansion, uint32_t row, uint32_t axis
 
 // ---- leaf -------------------------------------------------------------------------------------
 
-// Turns `frame` so that its direction `from` comes nearer to `to` by `part` of the angle.
-static versors turned_towards(versors frame, vec3s from, vec3s to, double part) {
-    vec3s axis = glms_vec3_cross(from, to);
-    float sine = glms_vec3_norm(axis);
-    float angle = atan2f(sine, glms_vec3_dot(from, to));
-    axis = sine > 1e-6f ? glms_vec3_divs(axis, sine) : fr_frame_left(frame);
-    return fr_frame_step(fr_rotation_about(axis, (float)part * angle), frame);
-}
-
 // A field's direction; where it has none the leaf keeps to the plain one.
 static vec3s direction_of(const double field[3], vec3s plain) {
     double size = sqrt(field[0] * field[0] + field[1] * field[1] + field[2] * field[2]);
@@ -178,10 +169,10 @@ static versors leaf_rotation(const FrExpansion *expansion, uint32_t row, FrPose 
     }
     if (weight != 0) {
         vec3s along = weight > 0 ? down : glms_vec3_negate(down);
-        frame = turned_towards(frame, fr_frame_heading(frame), along, fabs(weight));
+        frame = fr_turned_towards(frame, fr_frame_heading(frame), along, fabs(weight));
     }
     if (light != 0) {
-        frame = turned_towards(frame, fr_frame_up(frame), shine, light);
+        frame = fr_turned_towards(frame, fr_frame_up(frame), shine, light);
     }
     versors back = {{-bearer.x, -bearer.y, -bearer.z, bearer.w}};
     return fr_frame_step(back, frame);
@@ -412,7 +403,7 @@ void fr_make_stem(const FrExpansion *expansion, uint32_t row, FrEvaluator *evalu
     const FrLevel *level = &expansion->level;
     FrPose pose = fr_instance_pose(expansion, row, evaluator), tip;
     FrStem stem = fr_stem_measure(prepared_of(expansion, row), evaluator,
-                                  fr_instance_stem_base(expansion, row, pose.scale));
+                                  fr_instance_stem_base(expansion, row, pose));
     FrPose *tips = stem.limb_count > 1 ? g_new(FrPose, stem.limb_count) : &tip;
     grow_stem(expansion, row, &stem, pose, evaluator, tips);
     uint32_t at = level->child_count[row];

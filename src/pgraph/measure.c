@@ -23,7 +23,7 @@ static uint32_t count_children(const FrPrepared *prepared, FrEvaluator *evaluato
 static FrStem stem_of(const FrExpansion *expansion, uint32_t row, FrEvaluator *evaluator) {
     const FrPrepared *prepared = &expansion->prepared[fr_instance_stage(expansion, row)->component];
     FrPose pose = fr_instance_pose(expansion, row, evaluator);
-    return fr_stem_measure(prepared, evaluator, fr_instance_stem_base(expansion, row, pose.scale));
+    return fr_stem_measure(prepared, evaluator, fr_instance_stem_base(expansion, row, pose));
 }
 
 // Branches of all limbs; more than fit are refused before they are made.

@@ -7,6 +7,15 @@
 
 #define PI 3.14159265358979323846
 
+// As many branches before one are kept apart from, at turns so far from each other.
+enum { FEET = 16, ASIDE_TRIES = 36 };
+#define ASIDE (10 * PI / 180)
+
+// Where a branch begins on the surface of its stem.
+typedef struct Foot {
+    double along, azimuth;
+} Foot;
+
 typedef struct Branching {
     const FrExpansion *expansion;
     const FrStem *stem;
@@ -18,6 +27,8 @@ typedef struct Branching {
     double at;      // along the stem
     double sweep;
     const FrCurve *crown; // NULL: none
+    Foot feet[FEET];      // of the last branches, where they keep apart
+    uint32_t foot_count;
 } Branching;
 
 static bool is_on_surface(const FrTreeParams *tree, const FrPrepared *child) {
@@ -82,6 +93,35 @@ static double crown_at(const Branching *branching) {
                                  reach > 0 ? (branching->at - places->start) / reach : 0));
 }
 
+// From a foot to the nearest of the last branches', over the surface, m; as if unrolled.
+static double room_at(const Branching *branching, Foot foot, double radius) {
+    double room = INFINITY;
+    for (uint32_t k = 0; k < MIN(branching->foot_count, FEET); k++) {
+        Foot other = branching->feet[k];
+        double turn = foot.azimuth - other.azimuth;
+        turn -= 2 * PI * floor(turn / (2 * PI) + 0.5);
+        room = fmin(room, hypot(foot.along - other.along, turn * radius));
+    }
+    return room;
+}
+
+// The azimuth nearest to one wanted at which a branch is far enough from the last ones, or where it
+// is farthest.
+static double kept_apart(Branching *branching, double azimuth, double radius, double apart) {
+    Foot foot = {branching->at * branching->stem->length, azimuth}, best = foot;
+    double most = -1;
+    for (int k = 0; k <= ASIDE_TRIES && most < apart; k++) {
+        foot.azimuth = azimuth + (k % 2 == 0 ? -1 : 1) * ((k + 1) / 2) * ASIDE;
+        double room = room_at(branching, foot, radius);
+        if (room > most) {
+            most = room;
+            best = foot;
+        }
+    }
+    branching->feet[branching->foot_count++ % FEET] = best;
+    return best.azimuth;
+}
+
 // Poses branch b. *reach receives the way from axis to surface.
 static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evaluator,
                            FrEvaluator *place, vec3s *reach) {
@@ -112,12 +152,15 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
     double azimuth = swept(fr_branch_azimuth(places, b), branching->sweep) + FR_GET(azimuth);
     azimuth +=
         jitter != 0 ? jitter * fr_random_signed(key, fr_purpose(FR_TREE_azimuth_jitter), 1) : 0;
-    versors turn = fr_turned_zyz(azimuth, FR_GET(branching_angle), PI / 2 + FR_GET(roll));
     double now = place_now(branching);
-    double radius = fr_limb_radius(stem, branching->limb, now);
+    double radius = fr_limb_radius(stem, branching->limb, now), out = 1 - FR_GET(sink);
+    double apart = FR_GET(apart) * branching->base.scale;
+    azimuth = apart > 0 ? kept_apart(branching, azimuth, radius, apart) : azimuth;
+    versors turn = fr_turned_zyz(azimuth, FR_GET(branching_angle), PI / 2 + FR_GET(roll));
     azimuth -= 2 * PI * floor(azimuth / (2 * PI));
-    *reach = (vec3s){{(float)radius * cosf((float)azimuth),
-                      (float)(radius * fr_stem_flatness(stem, now)) * sinf((float)azimuth), 0}};
+    *reach =
+        (vec3s){{(float)(out * radius) * cosf((float)azimuth),
+                 (float)(out * radius * fr_stem_flatness(stem, now)) * sinf((float)azimuth), 0}};
     if (stem->internodes > 0) {
         site.rotation = turn; // internodes have the stem's frame
     } else {
@@ -182,11 +225,15 @@ uint32_t fr_make_branches(const FrExpansion *expansion, uint32_t row, const FrSt
         .place = FR_NONE,
         .crown = stem->prepared->crown,
     };
+    const FrNumber *apart = &branching.tree->apart;
+    bool keeps_apart = !apart->is_constant || apart->constant > 0;
     branching.sweep = fr_value(evaluator, &branching.tree->sweep, FR_TREE_sweep);
     for (uint32_t l = 0; l < stem->limb_count; l++) {
         branching.limb = fr_stem_limb(stem, &whole, l);
+        branching.foot_count = 0;
         for (uint32_t b = branching.limb->first_branch; b < branching.limb->end_branch; b++) {
-            if (fr_is_wanted(expansion, stage, b, count)) {
+            // Those that flags leave out are kept apart from as if they were there.
+            if (keeps_apart || fr_is_wanted(expansion, stage, b, count)) {
                 at = make_branch(&branching, b, evaluator, place, at);
             }
         }

@@ -42,19 +42,29 @@
       "iterations it is made for: all, odd, even, first, last, 2,13, !2,13, 0..4, %3=1")           \
     X(TEXT, material, "", 0, 0, "", "", "id of the material; empty: as what it grows on")
 
+/// Which way it turns whatever it stands on; degrees would depend on that.
+#define FR_WORLDLY_PARAMS(X)                                                                       \
+    X(CHOICE, tropism_axis, "z", 0, 0, "", "x y z", "which of its axes tropism-x, -y and -z turn") \
+    X(NUMBER, tropism_x, "0", -1, 1, "", "",                                                       \
+      "part of the way that axis turns to the plant's x axis; negative: away")                     \
+    X(NUMBER, tropism_y, "0", -1, 1, "", "", "the same to y")                                      \
+    X(NUMBER, tropism_z, "0", -1, 1, "", "", "the same to z, upright; negative: down")
+
 /// What every component has.
-#define FR_BASIC_PARAMS(X) FR_PLAIN_PARAMS(X) FR_LIFE_PARAMS(X)
+#define FR_BASIC_PARAMS(X) FR_PLAIN_PARAMS(X) FR_LIFE_PARAMS(X) FR_WORLDLY_PARAMS(X)
 
 /// The stem of Horn and Tree.
 #define FR_STEM_PARAMS(X)                                                                          \
     X(CHOICE, course, "grown", 0, 0, "", "grown path steps",                                       \
       "how it runs: by curvature, gnarl and tropisms, along path, or step by step")                \
     X(NUMBER, length, "1", 0, 1000, "m", "", "length of the stem, or part of its parent's")        \
-    X(CHOICE, length_mode, "absolute", 0, 0, "", "absolute of-parent",                             \
-      "length in metres, or relative to the parent stem's")                                        \
+    X(CHOICE, length_mode, "absolute", 0, 0, "", "absolute of-parent of-remaining to-obstacle",    \
+      "length in metres; or part of the parent stem's, of what of it is left beyond, of the way "  \
+      "to a Force ahead that stems end at")                                                        \
     X(NUMBER, radius, "0.02", 0, 100, "m", "self", "radius at the base, or part of the parent's")  \
-    X(CHOICE, radius_mode, "absolute", 0, 0, "", "absolute of-parent",                             \
-      "radius in metres, or relative to the parent stem's where it is attached")                   \
+    X(CHOICE, radius_mode, "absolute", 0, 0, "", "absolute of-parent pipe",                        \
+      "radius in metres; relative to the parent stem's where it is attached; or that of tips, "    \
+      "and below as thick as all it bears")                                                        \
     X(NUMBER, taper, "0.8", 0, 1, "", "", "how much thinner the tip is: 0 not, 1 a point")         \
     X(CURVE, profile, "", 0, 0, "", "", "radius along the stem, in radii; instead of taper")       \
     X(NUMBER, min_radius, "0.0005", 0, 100, "m", "", "never thinner than this")                    \
@@ -122,9 +132,25 @@
     X(CHOICE, junction, "collar", 0, 0, "", "collar plain",                                        \
       "how it meets its parent: on a collar, or as a tube that begins within it")
 
+/// More of stems. Rows here are counted behind all others (fr_purpose), so that a new last one
+/// changes no plant there is.
+#define FR_STEM_MORE_PARAMS(X)                                                                     \
+    X(NUMBER, curvature_back, "0", -3600, 3600, "deg", "",                                         \
+      "turn of the outer half besides; an S where it is against the curvature")                    \
+    X(NUMBER, gnarl_fine, "0", 0, 180, "deg", "", "how far it trembles on top of its gnarl")       \
+    X(NUMBER, gnarl_fine_frequency, "12", 0, 100, "", "", "how often, over its length")            \
+    X(NUMBER, align, "0", -20, 20, "", "", "turns to the direction of what it stands on")          \
+    X(NUMBER, stiffness, "0", 0, 1000000, "GPa", "",                                               \
+      "sags under its weight as wood so stiff: green wood 5 to 12; 0: not at all")                 \
+    X(NUMBER, load, "0", 0, 1000, "", "", "weight of what it bears over its own, for sagging")     \
+    X(REAL, pipe_exponent, "2.5", 1, 4, "", "",                                                    \
+      "for radius-mode=pipe: 2 keeps the cross-section where stems divide, 3 is Murray's")
+
 /// How a Tree places its branches. From azimuth on, evaluated for each branch.
 #define FR_BRANCHING_PARAMS(X)                                                                     \
-    X(CHOICE, mode, "number", 0, 0, "", "number density internode", "what counts the branches")    \
+    X(CHOICE, mode, "number", 0, 0, "", "number density internode nodes proportional bifurcation", \
+      "what counts the branches: number, density or internode; one whorl at each node; number "    \
+      "on the longest stem of a crown; or number of them at the end")                              \
     X(NUMBER, number, "10", 0, 1000000, "", "", "branches")                                        \
     X(NUMBER, density, "10", 0, 100000, "1/m", "", "branches per metre of stem")                   \
     X(NUMBER, internode, "0.1", 0.00001, 1000, "m", "", "stem between two places")                 \
@@ -150,7 +176,12 @@
     X(NUMBER, azimuth_jitter, "0", 0, 180, "deg", "", "random turn about the stem")                \
     X(NUMBER, branching_angle, "45", -180, 180, "deg", "", "angle between branch and stem")        \
     X(NUMBER, roll, "0", -36000, 36000, "deg", "", "turn of the branch about itself")              \
-    X(NUMBER, child_scale, "1", 0.000001, 1000, "", "", "size of the branch")
+    X(NUMBER, child_scale, "1", 0.000001, 1000, "", "", "size of the branch")                      \
+    X(NUMBER, gap_ratio, "1", 0.1, 10, "", "", "each gap between places over the one before")      \
+    X(NUMBER, apart, "0", 0, 1000, "m", "",                                                        \
+      "branches whose feet are nearer to each other turn aside about the stem")                    \
+    X(NUMBER, sink, "0", -100, 1, "", "",                                                          \
+      "how deep in the stem what stands on the surface begins, in its radii; negative: off it")
 
 /// From phototropism on, evaluated for each leaf; the rest for each shape.
 #define FR_LEAF_PARAMS(X)                                                                          \
@@ -209,6 +240,7 @@ typedef struct FrSimpleParams {
 typedef struct FrStemParams {
     FR_BASIC_PARAMS(FR_PARAM_FIELD)
     FR_STEM_PARAMS(FR_PARAM_FIELD)
+    FR_STEM_MORE_PARAMS(FR_PARAM_FIELD)
 } FrStemParams;
 
 typedef struct FrFinishParams {
@@ -219,12 +251,14 @@ typedef struct FrFinishParams {
 typedef struct FrHornParams {
     FR_BASIC_PARAMS(FR_PARAM_FIELD)
     FR_STEM_PARAMS(FR_PARAM_FIELD)
+    FR_STEM_MORE_PARAMS(FR_PARAM_FIELD)
     FR_FINISH_PARAMS(FR_PARAM_FIELD)
 } FrHornParams;
 
 typedef struct FrTreeParams {
     FR_BASIC_PARAMS(FR_PARAM_FIELD)
     FR_STEM_PARAMS(FR_PARAM_FIELD)
+    FR_STEM_MORE_PARAMS(FR_PARAM_FIELD)
     FR_BRANCHING_PARAMS(FR_PARAM_FIELD)
     FR_FINISH_PARAMS(FR_PARAM_FIELD)
 } FrTreeParams;
@@ -241,7 +275,11 @@ typedef struct FrLeafParams {
 #define FR_LEAF_ID(kind, field, ...) FR_LEAF_##field,
 enum { FR_BASIC_PARAMS(FR_BASIC_ID) FR_BASIC_COUNT };
 enum { FR_PLAIN_COUNT = FR_BASIC_birth };
-enum { FR_STEM_BEFORE = FR_BASIC_COUNT - 1, FR_STEM_PARAMS(FR_STEM_ID) FR_STEM_COUNT };
+enum {
+    FR_STEM_BEFORE = FR_BASIC_COUNT - 1,
+    FR_STEM_PARAMS(FR_STEM_ID) FR_STEM_MORE_PARAMS(FR_STEM_ID) FR_STEM_COUNT
+};
+enum { FR_STEM_MORE = FR_STEM_curvature_back };
 enum { FR_TREE_BEFORE = FR_STEM_COUNT - 1, FR_BRANCHING_PARAMS(FR_TREE_ID) FR_TREE_COUNT };
 enum { FR_LEAF_BEFORE = FR_BASIC_COUNT - 1, FR_LEAF_PARAMS(FR_LEAF_ID) FR_LEAF_COUNT };
 #undef FR_BASIC_ID
@@ -251,17 +289,21 @@ enum { FR_LEAF_BEFORE = FR_BASIC_COUNT - 1, FR_LEAF_PARAMS(FR_LEAF_ID) FR_LEAF_C
 
 enum { FR_PURPOSE_LATER = 1 << 16 };
 
-/// The purpose of a parameter's draws. The rows of life came after all others and are counted
-/// behind them, so that they changed no plant there was.
+/// The purpose of a parameter's draws. Some rows came after those that stand behind them; they have
+/// purposes of their own, so that they changed no plant there was.
 static inline uint32_t fr_purpose(uint32_t parameter) {
+    enum { LIFE = FR_BASIC_COUNT - FR_PLAIN_COUNT, MORE = FR_STEM_COUNT - FR_STEM_MORE };
     return parameter < FR_PLAIN_COUNT   ? parameter
            : parameter < FR_BASIC_COUNT ? parameter + FR_PURPOSE_LATER
-                                        : parameter - (FR_BASIC_COUNT - FR_PLAIN_COUNT);
+           : parameter < FR_STEM_MORE   ? parameter - LIFE
+           : parameter < FR_STEM_COUNT  ? parameter - FR_STEM_MORE + 2 * FR_PURPOSE_LATER
+                                        : parameter - LIFE - MORE;
 }
 
 // The values of the CHOICE rows, in their order.
 enum { FR_COURSE_GROWN, FR_COURSE_PATH, FR_COURSE_STEPS };
-enum { FR_SIZE_ABSOLUTE, FR_SIZE_OF_PARENT };
+enum { FR_SIZE_ABSOLUTE, FR_SIZE_OF_PARENT, FR_SIZE_OF_REMAINING, FR_SIZE_TO_OBSTACLE };
+enum { FR_RADIUS_BY_PIPES = 2 };
 enum {
     FR_PRIMITIVE_TUBE,
     FR_PRIMITIVE_AREA,
@@ -271,7 +313,14 @@ enum {
 };
 enum { FR_TIP_POINTED, FR_TIP_FLAT }; // from flat on in the order of FrCap
 enum { FR_CROWN_NONE };
-enum { FR_BRANCHES_BY_NUMBER, FR_BRANCHES_BY_DENSITY, FR_BRANCHES_BY_INTERNODE };
+enum {
+    FR_BRANCHES_BY_NUMBER,
+    FR_BRANCHES_BY_DENSITY,
+    FR_BRANCHES_BY_INTERNODE,
+    FR_BRANCHES_AT_NODES,
+    FR_BRANCHES_IN_PROPORTION,
+    FR_BRANCHES_AT_END,
+};
 enum { FR_SPACING_MIDDLE, FR_SPACING_ENDS };
 enum {
     FR_PHYLLOTAXIS_SPIRAL,

@@ -26,7 +26,10 @@
     X(FORMULA, to_x, "x", 0, 0, "", "x y z amount", "where the point x, y, z goes, in m")          \
     X(FORMULA, to_y, "y", 0, 0, "", "x y z amount", "the same along y")                            \
     X(FORMULA, to_z, "z", 0, 0, "", "x y z amount", "the same along z")                            \
-    X(NUMBER, amount, "1", -1000000, 1000000, "", "", "a number for the functions")
+    X(NUMBER, amount, "1", -1000000, 1000000, "", "", "a number for the functions")                \
+    X(CHOICE, preset, "none", 0, 0, "",                                                            \
+      "none bend twist taper bulge flare shear stretch wave spiral spherify ruffle",               \
+      "functions ready made, of that amount, instead of to-x, to-y, to-z")
 
 #define FR_HYPERPATCH_PARAMS(X)                                                                    \
     X(TEXT, points, "", 0, 0, "", "",                                                              \
@@ -41,7 +44,12 @@
     X(FORMULA, light_z, "1", 0, 0, "", "x y z", "the same along z")                                \
     X(SWITCH, sampled, "no", 0, 1, "", "",                                                         \
       "the light is that of a scene with a `<light>`, where the plant stands")                     \
-    X(REAL, step, "0.1", 0.0001, 1000, "m", "", "stems get an internode at least every so far")
+    X(REAL, step, "0.1", 0.0001, 1000, "m", "", "stems get an internode at least every so far")    \
+    X(SWITCH, sun, "no", 0, 1, "", "",                                                             \
+      "the light is a sun at sun-azimuth and sun-elevation, whatever light-x, -y, -z say")         \
+    X(NUMBER, sun_azimuth, "180", -36000, 36000, "deg", "",                                        \
+      "where the sun stands, from the y axis towards the x axis: north, east, south, west")        \
+    X(NUMBER, sun_elevation, "45", -90, 90, "deg", "", "how high the sun stands")
 
 #define FR_FORCE_PARAMS(X)                                                                         \
     X(CHOICE, kind, "line", 0, 0, "", "direction point line plane vortex curve box cylinder mesh", \
@@ -109,6 +117,7 @@ enum { FR_FORCE_BEFORE = FR_BASIC_COUNT - 1, FR_FORCE_PARAMS(FR_FORCE_ID) FR_FOR
 
 enum { FR_MOVES_TRIANGLES, FR_MOVES_SKELETON };
 enum { FR_FFD_EXACT, FR_FFD_BY_LATTICE };
+enum { FR_PRESET_NONE };
 enum {
     FR_FORCE_ALONG_DIRECTION,
     FR_FORCE_TO_POINT,

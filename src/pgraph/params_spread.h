@@ -62,7 +62,9 @@
     X(NUMBER, child_scale, "1", 0.000001, 1000, "", "", "size of each child")                      \
     X(NUMBER, tilt, "0", -360, 360, "deg", "", "turn of each towards the axis")                    \
     X(NUMBER, roll, "0", -36000, 36000, "deg", "", "turn of each about itself")                    \
-    X(NUMBER, push, "0", -10000, 10000, "m", "", "how much farther out each stands")
+    X(NUMBER, push, "0", -10000, 10000, "m", "", "how much farther out each stands")               \
+    X(CHOICE, orient, "radial", 0, 0, "", "radial tangential world",                               \
+      "which way each faces: out from the axis, along the ring, or all the same way")
 
 /// From child_scale on, evaluated for each child.
 #define FR_SCATTER_PARAMS(X)                                                                       \
@@ -155,6 +157,7 @@ enum { FR_RADIUS_ABSOLUTE, FR_RADIUS_BY_AREA, FR_RADIUS_TOUCHING };
 enum { FR_HAND_LEFT, FR_HAND_RIGHT };
 enum { FR_PLACEMENT_MIDPOINT, FR_PLACEMENT_END };
 enum { FR_ANCHOR_CENTRE, FR_ANCHOR_POLE };
+enum { FR_ORIENT_RADIAL, FR_ORIENT_TANGENTIAL, FR_ORIENT_WORLD };
 enum { FR_FORM_SPHERE, FR_FORM_CONE, FR_FORM_CYLINDER, FR_FORM_DISC };
 enum { FR_SCATTER_DISC, FR_SCATTER_SQUARE, FR_SCATTER_RING, FR_SCATTER_MESH };
 enum { FR_SCATTER_BY_NUMBER, FR_SCATTER_BY_DENSITY };

@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#define SMALLEST_GAP 0.01 // of the first
+
 static double between(double low, double value, double high) {
     return value < low ? low : value > high ? high : value;
 }
@@ -31,6 +33,30 @@ double fr_density_place(const FrDensity *density, double start, double end, doub
     return between(start, (first + between(0, inside, 1)) / FR_DENSITY_STEPS, end);
 }
 
+// Gaps that each are `ratio` of the one before: k of them together, in first ones.
+static double gaps_to(double k, double ratio) {
+    return ratio == 1 ? k : expm1(k * log(ratio)) / (ratio - 1);
+}
+
+double fr_places_within(double stretch, double ratio) {
+    double gaps = stretch;
+    if (ratio != 1) {
+        // Shrinking gaps end where they are a hundredth of the first.
+        double rest = 1 + (ratio - 1) * stretch;
+        gaps = log(fmax(rest, ratio < 1 ? SMALLEST_GAP : 1)) / log(ratio);
+    }
+    return floor(gaps + 1e-6) + 1;
+}
+
+// Where the gaps shrink or grow: place k, shifted by a part of its gap, over all of them.
+static double part_by_ratio(const FrPlaces *places, double k, double shift) {
+    double all = places->is_at_ends ? (double)places->count - 1 : (double)places->count;
+    double from = gaps_to(k, places->ratio), to = gaps_to(k + 1, places->ratio);
+    double inside = (places->is_at_ends ? 0 : 0.5) + shift;
+    double whole = gaps_to(all, places->ratio);
+    return whole > 0 ? (from + inside * (to - from)) / whole : 0;
+}
+
 double fr_place_at(const FrPlaces *places, uint32_t k) {
     double shift = 0;
     if (places->irregularity > 0) {
@@ -38,12 +64,15 @@ double fr_place_at(const FrPlaces *places, uint32_t k) {
                 fr_random_signed(places->key, fr_purpose(FR_TREE_regularity), k);
     }
     if (places->pitch > 0) {
-        double at = places->start + ((double)k + shift) * places->pitch;
+        double at = places->start + gaps_to((double)k + shift, places->ratio) * places->pitch;
         return between(places->start, at, places->end);
     }
     double part = places->is_at_ends
                       ? (places->count > 1 ? ((double)k + shift) / (places->count - 1) : 0)
                       : ((double)k + 0.5 + shift) / places->count;
+    if (places->ratio != 1) {
+        part = part_by_ratio(places, k, shift);
+    }
     part = between(0, part, 1);
     if (places->density != NULL) {
         return fr_density_place(places->density, places->start, places->end, part);

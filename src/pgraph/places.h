@@ -20,7 +20,8 @@ typedef struct FrPlaces {
     uint32_t whorl;           ///< branches at a place
     uint32_t count;           ///< places
     double start, end;        ///< along the stem, 0 to 1
-    double pitch;             ///< internode over the stem's length; 0: spread by density
+    double pitch;             ///< first gap over the stem's length; 0: spread by density
+    double ratio;             ///< each gap over the one before
     double irregularity;      ///< 0 even … 1 anywhere within its gap
     double divergence;        ///< turn from place to place
     bool is_at_ends;          ///< first and last stand at start and end
@@ -28,6 +29,8 @@ typedef struct FrPlaces {
     FrKey key;
 } FrPlaces;
 
+/// Places on a stretch of so many first gaps, the first at its beginning.
+double fr_places_within(double stretch, double ratio);
 /// Place k along the stem, 0 to 1, rising with k.
 double fr_place_at(const FrPlaces *places, uint32_t k);
 /// Where the share `part` of the density between start and end lies below.

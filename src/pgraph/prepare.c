@@ -47,6 +47,8 @@ static void note_variation(FrPrepared *made, const FrParamTable *table, bool has
     made->is_unmoved = is_always(&basic->translate_x, 0) && is_always(&basic->translate_y, 0) &&
                        is_always(&basic->translate_z, 0) && is_always(&basic->rotate_x, 0) &&
                        is_always(&basic->rotate_y, 0) && is_always(&basic->rotate_z, 0);
+    made->is_drawn = !is_always(&basic->tropism_x, 0) || !is_always(&basic->tropism_y, 0) ||
+                     !is_always(&basic->tropism_z, 0);
 }
 
 // The number of children, where it is given.
@@ -307,6 +309,8 @@ static FrStatus prepare_stem(FrPrepared *made, const FrPgraph *graph, const FrPr
         made->finish = add_finishes(plant, stem->tip, &made->finished);
     }
     made->along = fr_along_find(stem);
+    made->is_ahead = stem->length_mode == FR_SIZE_TO_OBSTACLE;
+    made->is_aligned = !is_always(&stem->align, 0);
     made->bend_factor = total_bend(stem->curvature_curve);
     if (stem->course == FR_COURSE_PATH) {
         made->path = sample_path(prototype);

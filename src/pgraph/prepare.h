@@ -33,10 +33,13 @@ typedef struct FrPrepared {
     bool is_timed;     ///< may be absent: has a birth, a lifetime, a clock, a chance of its own
     bool grows;
     bool is_unmoved;   ///< its own translate and rotate are constantly nothing
+    bool is_drawn;     ///< … and its own tropism is not
     bool is_stem;      ///< horn or tree
     bool is_string;    ///< … made of objects
     bool is_point_set; ///< simple with primitive tube or area
     bool is_along;     ///< a leaf with parameters that differ along it
+    bool is_ahead;     ///< a stem as long as its way to an obstacle
+    bool is_aligned;   ///< a stem that turns to the direction of what it stands on
     bool bears;        ///< multiplies at least one link
     uint32_t along;    ///< parameters of a stem that differ along it, bits 1 << FrAlong
     uint32_t profile;  ///< cross-section, of the plant; FR_NONE

@@ -2,7 +2,9 @@
 //
 // The ring goes from opening to closing; over a whole turn the last child stands one step before
 // the first, not upon it. An arm grows away from the axis with its upper side along it; a candle
-// grows along the axis with its upper side to it: an arm that was tilted by a quarter turn.
+// grows along the axis with its upper side to it: an arm that was tilted by a quarter turn. What is
+// oriented tangentially is turned about the axis by a quarter turn more, and what is oriented to
+// the world as the child at azimuth 0.
 #include "pgraph/spread.h"
 
 #include <math.h>
@@ -58,7 +60,10 @@ static FrPose pose_child(Star *star, uint32_t i) {
     radius += FR_GET(push) * star->spread.centre.scale;
     vec3s by = {{(float)(radius * cos(azimuth)), (float)(radius * sin(azimuth)),
                  (float)(ring * star->spacing)}};
-    versors turn = fr_turned_zyz(azimuth, star->polar - FR_GET(tilt), TURN / 4 + FR_GET(roll));
+    double facing = params->orient == FR_ORIENT_RADIAL       ? azimuth
+                    : params->orient == FR_ORIENT_TANGENTIAL ? azimuth + TURN / 4
+                                                             : 0;
+    versors turn = fr_turned_zyz(facing, star->polar - FR_GET(tilt), TURN / 4 + FR_GET(roll));
     return fr_spread_site(&star->spread, by, turn, FR_GET(child_scale));
 #undef FR_GET
 }

@@ -25,7 +25,9 @@ enum { INTERNODES_OF_BUTTRESS = 8, MOST_FOR_BUTTRESS = 64, INTERNODES_OF_FURROW 
 #define INTERNODES_PER_GNARL 5.0
 // A place nearer to the tip than this stands on it.
 #define AT_TIP 1e-6
-#define LONGEST 1e9 // m
+#define LONGEST 1e9           // m
+#define WEIGHT_OF_WOOD 8800.0 // N/m³, green
+#define MOST_SAG 100.0
 #define SHORTEST_REACH 1e-6
 
 static uint32_t clamp_count(double count) {
@@ -52,6 +54,43 @@ static double finished_internodes(const FrStem *stem) {
     return count;
 }
 
+// So many that a gnarl shows, at least `count`.
+static double internodes_of_gnarl(double count, double gnarl, double frequency) {
+    if (gnarl > 0) {
+        double most = INTERNODES_PER_GNARL * frequency;
+        double wanted = TURNS_PER_GNARL * gnarl * frequency / GNARL_PER_INTERNODE;
+        count = fmax(count, fmin(most, fmax(wanted, frequency)));
+    }
+    return count;
+}
+
+// A thin round beam of wood under its own weight and what it bears, spread evenly: the moment of
+// all beyond, as if that went straight on, over the stiffness E π r⁴/4.
+double fr_stem_sag(const FrStem *stem, double at) {
+    enum { PLACES = 8 };
+    double beyond = 0, whole = 0;
+    for (int k = 0; k < PLACES; k++) {
+        double way = (1 - at) * (k + 0.5) / PLACES, far = fr_stem_radius(stem, at + way);
+        double any = fr_stem_radius(stem, (k + 0.5) / PLACES);
+        beyond += way * far * far * (1 - at) / PLACES;
+        whole += any * any / PLACES;
+    }
+    beyond += stem->load * whole * 0.5 * (1 - at) * (1 - at);
+    double radius = fr_stem_radius(stem, at), length = stem->length;
+    double stiffness = stem->elasticity * radius * radius * radius * radius;
+    double weight = 4 * WEIGHT_OF_WOOD * length * length * length * beyond;
+    return weight < MOST_SAG * stiffness ? weight / stiffness : MOST_SAG;
+}
+
+static double mean_sag(const FrStem *stem) {
+    enum { PLACES = 8 };
+    double sum = 0;
+    for (int k = 0; k < PLACES; k++) {
+        sum += fr_stem_sag(stem, (k + 0.5) / PLACES) / PLACES;
+    }
+    return sum;
+}
+
 static uint32_t adaptive_internodes(const FrStem *stem) {
     const FrStemParams *params = stem->prepared->params;
     if (stem->prepared->is_string) {
@@ -62,17 +101,16 @@ static uint32_t adaptive_internodes(const FrStem *stem) {
     double pull = size_of(stem, FR_ALONG_PHOTOTROPISM, stem->tropism.up) +
                   size_of(stem, FR_ALONG_GRAVITROPISM, stem->tropism.down) +
                   size_of(stem, FR_ALONG_PLAGIOTROPISM, stem->tropism.flat);
-    turn += PI * (1 - exp(-pull)) + fabs(stem->bend) + fabs(stem->bend_aside);
+    pull += fabs(stem->align) + (stem->elasticity > 0 ? mean_sag(stem) : 0);
+    turn += PI * (1 - exp(-pull)) + fabs(stem->bend) + fabs(stem->bend_aside) +
+            fabs(stem->curvature_back);
     double count = turn / BEND_PER_INTERNODE;
     if (turn > LEAST_BEND) {
         count = fmax(count, LEAST_INTERNODES_OF_BEND);
     }
-    double gnarl = size_of(stem, FR_ALONG_GNARL, stem->gnarl);
-    if (gnarl > 0) {
-        double most = INTERNODES_PER_GNARL * stem->gnarl_frequency;
-        double wanted = TURNS_PER_GNARL * gnarl * stem->gnarl_frequency / GNARL_PER_INTERNODE;
-        count = fmax(count, fmin(most, fmax(wanted, stem->gnarl_frequency)));
-    }
+    count = internodes_of_gnarl(count, size_of(stem, FR_ALONG_GNARL, stem->gnarl),
+                                stem->gnarl_frequency);
+    count = internodes_of_gnarl(count, stem->gnarl_fine, stem->gnarl_fine_frequency);
     if (params->profile != NULL || fr_is_along(stem, FR_ALONG_RADIUS)) {
         count = fmax(count, INTERNODES_OF_PROFILE);
     }
@@ -101,7 +139,18 @@ static double divergence_of(const FrTreeParams *tree, FrEvaluator *evaluator) {
     }
 }
 
-static FrPlaces measure_places(const FrStem *stem, FrEvaluator *evaluator, double scale) {
+// The branches of a Tree at the nodes of its stem, one whorl at each between start and end.
+static void place_at_nodes(FrPlaces *places, uint32_t internodes) {
+    double first = fmax(1, ceil(places->start * internodes - 1e-9));
+    double last = floor(places->end * internodes + 1e-9);
+    places->ratio = 1;
+    places->irregularity = 0;
+    places->pitch = internodes > 0 ? 1.0 / internodes : 0;
+    places->start = first * places->pitch;
+    places->branches = last >= first ? clamp_count((last - first + 1) * places->whorl) : 0;
+}
+
+static FrPlaces measure_places(const FrStem *stem, FrEvaluator *evaluator, FrStemBase base) {
     const FrTreeParams *tree = stem->prepared->params;
     double start = fr_value(evaluator, &tree->start, FR_TREE_start);
     double end = fr_value(evaluator, &tree->end, FR_TREE_end);
@@ -117,19 +166,28 @@ static FrPlaces measure_places(const FrStem *stem, FrEvaluator *evaluator, doubl
         .is_at_ends = tree->spacing == FR_SPACING_ENDS,
         .density = stem->prepared->density,
         .key = evaluator->vars.key,
+        .ratio = fr_value(evaluator, &tree->gap_ratio, FR_TREE_gap_ratio),
     };
     double reach = (places.end - places.start) * stem->length;
-    if (tree->mode == FR_BRANCHES_BY_NUMBER) {
+    if (tree->mode == FR_BRANCHES_BY_NUMBER || tree->mode == FR_BRANCHES_IN_PROPORTION) {
         double number = fr_value(evaluator, &tree->number, FR_TREE_number);
         double whole = fabs(end - start), left = (places.end - places.start) * stem->whole;
         number *= stem->whole < 1 && whole > 0 ? left / whole : 1;
+        number *= tree->mode == FR_BRANCHES_IN_PROPORTION ? fmax(base.stretch, 0) : 1;
         places.branches = clamp_count(floor(number + 0.5));
+    } else if (tree->mode == FR_BRANCHES_AT_END) {
+        double number = fr_value(evaluator, &tree->number, FR_TREE_number);
+        places.branches = places.whorl = clamp_count(floor(number + 0.5));
+        places.whorl = MAX(places.whorl, 1);
+        places.start = places.end;
+    } else if (tree->mode == FR_BRANCHES_AT_NODES) {
+        place_at_nodes(&places, stem->internodes);
     } else if (tree->mode == FR_BRANCHES_BY_DENSITY) {
-        double density = fr_value(evaluator, &tree->density, FR_TREE_density) / scale;
+        double density = fr_value(evaluator, &tree->density, FR_TREE_density) / base.scale;
         places.branches = clamp_count(floor(density * reach + 0.5));
     } else {
-        double internode = scale * fr_value(evaluator, &tree->internode, FR_TREE_internode);
-        double count = floor(reach / internode + 1e-6) + 1;
+        double internode = base.scale * fr_value(evaluator, &tree->internode, FR_TREE_internode);
+        double count = fr_places_within(reach / internode, places.ratio);
         places.branches = stem->length > 0 ? clamp_count(count * places.whorl) : 0;
         places.pitch = stem->length > 0 ? internode / stem->length : 0;
     }
@@ -185,13 +243,26 @@ static void measure_path(FrStem *stem) {
     stem->length = length * stem->scale;
 }
 
+// Metres of length 1.
+static double unit_of_length(const FrStemParams *params, FrStemBase base) {
+    switch (params->length_mode) {
+    case FR_SIZE_OF_PARENT:
+        return base.scale * (base.has_parent ? base.parent_length : 1);
+    case FR_SIZE_OF_REMAINING:
+        return base.scale * (base.has_parent ? base.parent_length * fmax(1 - base.place, 0) : 1);
+    case FR_SIZE_TO_OBSTACLE:
+        return base.ahead >= 0 ? base.ahead : base.scale;
+    default:
+        return base.scale;
+    }
+}
+
 static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase base) {
     const FrStemParams *params = stem->prepared->params;
 #define FR_GET(field) fr_value(evaluator, &params->field, FR_STEM_##field)
-    bool is_relative = params->length_mode == FR_SIZE_OF_PARENT && base.has_parent;
-    stem->length = FR_GET(length) * base.scale * (is_relative ? base.parent_length : 1);
+    stem->length = FR_GET(length) * unit_of_length(params, base);
     stem->length *= base.stretch;
-    is_relative = params->radius_mode == FR_SIZE_OF_PARENT && base.has_parent;
+    bool is_relative = params->radius_mode == FR_SIZE_OF_PARENT && base.has_parent;
     stem->radius_unit = base.scale * (is_relative ? base.parent_radius : 1);
     stem->radius = FR_GET(radius) * base.scale * (is_relative ? base.parent_radius : 1);
     stem->taper = FR_GET(taper);
@@ -202,6 +273,13 @@ static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase bas
     stem->twist = FR_GET(twist);
     stem->gnarl = FR_GET(gnarl);
     stem->gnarl_frequency = FR_GET(gnarl_frequency);
+    stem->curvature_back = FR_GET(curvature_back);
+    stem->gnarl_fine = FR_GET(gnarl_fine);
+    stem->gnarl_fine_frequency = FR_GET(gnarl_fine_frequency);
+    stem->align = FR_GET(align);
+    stem->align_to = base.heading;
+    stem->elasticity = FR_GET(stiffness) * 1e9;
+    stem->load = FR_GET(load);
     stem->tropism.up = FR_GET(phototropism);
     stem->tropism.down = FR_GET(gravitropism);
     stem->tropism.flat = FR_GET(plagiotropism);
@@ -227,6 +305,7 @@ static void measure_break(FrStem *stem, FrEvaluator *evaluator) {
         stem->length *= stem->whole;
         stem->twist *= stem->whole;
         stem->gnarl_frequency *= stem->whole;
+        stem->gnarl_fine_frequency *= stem->whole;
     }
 }
 
@@ -251,6 +330,7 @@ static void measure_growth(FrStem *stem, FrEvaluator *evaluator) {
     stem->length *= stem->reach;
     stem->twist *= stem->reach;
     stem->gnarl_frequency *= stem->reach;
+    stem->gnarl_fine_frequency *= stem->reach;
     stem->whole *= stem->reach;
     if (stem->limbs != NULL) {
         fr_stem_grow_limbs(stem);
@@ -303,7 +383,7 @@ FrStem fr_stem_measure(const FrPrepared *prepared, FrEvaluator *evaluator, FrSte
             params->segments > 0 ? (uint32_t)params->segments : adaptive_internodes(&stem);
     }
     if (prepared->kind == FR_COMPONENT_TREE) {
-        stem.places = measure_places(&stem, evaluator, base.scale);
+        stem.places = measure_places(&stem, evaluator, base);
         if (stem.deviation > 0 && stem.places.count > 0 && !(stem.forks > 0)) {
             double last = fr_place_at(&stem.places, stem.places.count - 1);
             stem.gaps = stem.places.count + (last < 1 - AT_TIP);
@@ -326,6 +406,8 @@ double fr_stem_radius(const FrStem *stem, double at) {
     double radius;
     if (stem->course == FR_COURSE_STEPS) {
         radius = thick * fmin(pow(stem->step_scale, at * stem->internodes), 1e6);
+    } else if (params->radius_mode == FR_RADIUS_BY_PIPES) {
+        radius = thick; // of tips; what is below follows once all is there
     } else if (params->profile != NULL) {
         radius = thick * fr_curve_eval(params->profile, at * stem->slim);
     } else {

@@ -20,6 +20,9 @@ typedef struct FrStemBase {
     const GArray *axis;      ///< drawn by hand, vec3s; NULL
     uint32_t order;
     bool is_on_ground; ///< borne by nothing
+    double ahead;      ///< m, to what stems end at; less than 0: to nothing
+    double place;      ///< on the parent, 0 to 1
+    vec3s heading;     ///< of what it stands on, if it is aligned with that
 } FrStemBase;
 
 /// A stretch of a stem that forks: between two forks, or a fork and an end.
@@ -68,7 +71,13 @@ typedef struct FrStem {
     double scale;
     versors step_chord, step_turn; ///< … first internode's rotation, each further's
     FrKey key;
-    FrPlaces places; ///< of a Tree
+    FrPlaces places;                         ///< of a Tree
+    double gnarl_fine, gnarl_fine_frequency; ///< radians; over the length
+    double curvature_back;                   ///< radians
+    double align;                            ///< strength …
+    vec3s align_to;                          ///< … and direction, in the plant's coordinates
+    double elasticity;                       ///< Pa; 0: rigid
+    double load;                             ///< in weights of its own
     double force_weight;
     uint32_t order;
     bool is_on_ground;
@@ -86,6 +95,8 @@ void fr_stem_clear(FrStem *stem);
 double fr_stem_age_at(const FrStem *stem, double age, double at);
 /// Radius at `at`, 0 at the base to 1 at the tip, m.
 double fr_stem_radius(const FrStem *stem, double at);
+/// How fast the stem sags at `at`, over its length and the sine of its angle from the vertical.
+double fr_stem_sag(const FrStem *stem, double at);
 /// Thickness along y over that along x at `at`.
 double fr_stem_flatness(const FrStem *stem, double at);
 /// The one limb of a stem that does not fork.

@@ -58,25 +58,33 @@ static FrTropism tropism_between(const FrStem *stem, double from, double to) {
 
 static bool has_tropism(const FrStem *stem) {
     return fr_tropism_acts(stem->tropism) || fr_is_along(stem, FR_ALONG_PHOTOTROPISM) ||
-           fr_is_along(stem, FR_ALONG_GRAVITROPISM) || fr_is_along(stem, FR_ALONG_PLAGIOTROPISM);
+           fr_is_along(stem, FR_ALONG_GRAVITROPISM) || fr_is_along(stem, FR_ALONG_PLAGIOTROPISM) ||
+           stem->align != 0 || stem->elasticity > 0;
 }
 
 static bool has_gnarl(const FrStem *stem) {
-    return stem->gnarl > 0 || fr_is_along(stem, FR_ALONG_GNARL);
+    return stem->gnarl > 0 || stem->gnarl_fine > 0 || fr_is_along(stem, FR_ALONG_GNARL);
+}
+
+// How far its outer half is bent besides up to `at`.
+static double bent_back(const FrStem *stem, double at) {
+    return stem->curvature_back != 0 ? stem->curvature_back * fmax(0, 2 * at * stem->whole - 1) : 0;
 }
 
 // How far the stem is bent up to `at`, beyond where the walk is.
 static double bend_up_to(const FrStem *stem, const Walk *walk, double at) {
+    double back = bent_back(stem, at);
     const FrStemParams *params = stem->prepared->params;
     if (fr_is_along(stem, FR_ALONG_CURVATURE)) {
-        return walk->bend + bend_between(stem, walk->at, at);
+        return walk->bend + bend_between(stem, walk->at, at) + back - bent_back(stem, walk->at);
     }
     if (params->curvature_curve == NULL) {
-        return stem->curvature * at * stem->whole;
+        return stem->curvature * at * stem->whole + back;
     }
     at *= stem->whole;
     return stem->curvature * (fr_curve_integral(params->curvature_curve, at) -
-                              fr_curve_integral(params->curvature_curve, 0));
+                              fr_curve_integral(params->curvature_curve, 0)) +
+           back;
 }
 
 // Two octaves of noise, in radians. Both begin at 0, so a stem sets out as it was placed.
@@ -85,7 +93,12 @@ static double gnarl_at(const FrStem *stem, FrKey limb, uint64_t side, double at)
     double x = at * stem->gnarl_frequency;
     double gnarl =
         fr_is_along(stem, FR_ALONG_GNARL) ? fr_along_at(stem, FR_ALONG_GNARL, at) : stem->gnarl;
-    return gnarl * (1.4 * fr_noise1(key, x) + 0.6 * fr_noise1(~key, 2 * x));
+    double wander = gnarl * (1.4 * fr_noise1(key, x) + 0.6 * fr_noise1(~key, 2 * x));
+    if (stem->gnarl_fine > 0) {
+        FrKey fine = fr_key_child(fr_key_child(limb, fr_purpose(FR_STEM_gnarl_fine)), side);
+        wander += 2 * stem->gnarl_fine * fr_noise1(fine, at * stem->gnarl_fine_frequency);
+    }
+    return wander;
 }
 
 // The turn of a grown stem from where the walk is to `at`, fields not counted, in its own frame.
@@ -142,6 +155,23 @@ typedef struct Growth {
 
 static versors frame_before(const Growth *growth) {
     return growth->before != FR_NONE ? growth->plant->nodes.frame[growth->before] : identity;
+}
+
+// Adds to `turn` what what it stands on and its own weight turn the stem by.
+static versors with_own(const Growth *growth, versors turn, double at, double step) {
+    const FrStem *stem = growth->stem;
+    versors parent = frame_before(growth);
+    if (stem->align != 0) {
+        versors frame = fr_frame_step(parent, turn);
+        versors aligned = fr_align_turn(stem->align * step, stem->align_to, frame);
+        turn = turned_further(parent, turn, aligned);
+    }
+    if (stem->elasticity > 0) {
+        versors frame = fr_frame_step(parent, turn);
+        double sag = fr_stem_sag(stem, at - 0.5 * step);
+        turn = turned_further(parent, turn, fr_sag_turn(sag * step, frame));
+    }
+    return turn;
 }
 
 // Adds to `turn` what the fields turn the stem by over `step` up to `at`, from the middle of the
@@ -232,7 +262,8 @@ static void write_node(Growth *growth, uint32_t node, versors rotation, double l
 static bool is_steady(const FrStem *stem) {
     const FrStemParams *params = stem->prepared->params;
     return stem->gaps == 0 && !has_gnarl(stem) && params->curvature_curve == NULL &&
-           !fr_is_along(stem, FR_ALONG_CURVATURE) && !fr_is_along(stem, FR_ALONG_TWIST);
+           !fr_is_along(stem, FR_ALONG_CURVATURE) && !fr_is_along(stem, FR_ALONG_TWIST) &&
+           stem->curvature_back == 0;
 }
 
 // Where the walk along a limb begins: in the middle of the internode before it.
@@ -289,7 +320,7 @@ static versors grow_evenly(Growth *growth, uint32_t first, versors start) {
         walk.at = middle;
         versors own = growth->is_base ? fr_frame_step(start, turn) : turn;
         if (has_fields) {
-            own = with_fields(growth, own, middle, step);
+            own = with_own(growth, with_fields(growth, own, middle, step), middle, step);
         }
         if (stem->is_in_field) {
             own = deflected(growth, own, length, radius);
@@ -302,7 +333,7 @@ static versors grow_evenly(Growth *growth, uint32_t first, versors start) {
         walk.bend = bend_up_to(stem, &walk, walk.at);
     }
     turn = walk_to(stem, limb->key, &walk, 1, 0, 0);
-    return has_fields ? with_fields(growth, turn, 1, step) : turn;
+    return has_fields ? with_own(growth, with_fields(growth, turn, 1, step), 1, step) : turn;
 }
 
 static versors grow_steps(Growth *growth, uint32_t first, versors start) {

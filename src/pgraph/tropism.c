@@ -1,5 +1,6 @@
 #include "pgraph/tropism.h"
 
+#include <cglm/struct.h>
 #include <math.h>
 
 #define PI 3.14159265358979323846
@@ -32,4 +33,27 @@ versors fr_tropism_turn(FrTropism tropism, versors frame, double step) {
     vec3s axis = level > VERTICAL ? (vec3s){{(float)(-y / level), (float)(x / level), 0}}
                                   : fr_frame_left(frame);
     return fr_rotation_about(axis, turn);
+}
+
+versors fr_align_turn(double strength, vec3s to, versors frame) {
+    vec3s heading = fr_frame_heading(frame);
+    vec3s axis = glms_vec3_cross(heading, to);
+    double sine = (double)glms_vec3_norm(axis);
+    double angle = atan2(sine, (double)glms_vec3_dot(heading, to));
+    double rest = fmin(angle * exp(-strength), PI);
+    axis = sine > VERTICAL ? glms_vec3_divs(axis, (float)sine) : fr_frame_left(frame);
+    return fr_rotation_about(axis, (float)(angle - rest));
+}
+
+versors fr_sag_turn(double strength, versors frame) {
+    vec3s heading = fr_frame_heading(frame);
+    double x = (double)heading.x, y = (double)heading.y;
+    double level = sqrt(x * x + y * y);
+    if (level < VERTICAL) {
+        return (versors){{0, 0, 0, 1}};
+    }
+    double angle = atan2(level, (double)heading.z);
+    double sagged = 2 * atan(tan(0.5 * angle) * exp(strength));
+    vec3s axis = {{(float)(-y / level), (float)(x / level), 0}};
+    return fr_rotation_about(axis, (float)(sagged - angle));
 }

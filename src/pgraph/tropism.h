@@ -23,3 +23,8 @@ static inline bool fr_tropism_acts(FrTropism tropism) {
 double fr_tropism_angle(FrTropism tropism, double angle, double step);
 /// The rotation, in the plant's coordinates, that turns `frame` as far.
 versors fr_tropism_turn(FrTropism tropism, versors frame, double step);
+/// The rotation that turns `frame` to a direction, the angle between them times e^−strength.
+versors fr_align_turn(double strength, vec3s to, versors frame);
+/// The rotation that lets `frame` sag: with dα/ds = k sin α the tangent of half its angle from the
+/// vertical grows by e^strength.
+versors fr_sag_turn(double strength, versors frame);

@@ -407,6 +407,46 @@ static void wrong_texts(void) {
     fr_pgraph_free(graph);
 }
 
+// Where a preset takes the point of a small box that stands on it, in metres.
+static void preset(const char *attributes, double x, double y, double z, const double wanted[3]) {
+    char *text = g_strdup_printf("ffd ffd preset=%s;moves=skeleton;box-to=.5,.5,2\n"
+                                 "simple S size=.001;translate-x=%g;translate-y=%g;translate-z=%g\n"
+                                 "ffd - S",
+                                 attributes, x, y, z);
+    FrMesh *mesh = skin_text(text);
+    double middle[3] = {0, 0, 0};
+    for (uint64_t i = 0; i < mesh->vertex_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            middle[k] += (double)mesh->vertices[i].position[k] / (double)mesh->vertex_count;
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        g_assert_cmpfloat_with_epsilon(middle[k], wanted[k], 2e-3);
+    }
+    fr_mesh_free(mesh);
+    g_free(text);
+}
+
+static void presets(void) {
+    // Over a box of 2 m. Bent by a quarter turn its axis is a quarter circle as long as it was.
+    double radius = 2 / (G_PI / 2);
+    preset("bend", 0, 0, 2, (const double[]){0, radius, radius});
+    preset("bend", 0.1, 0, 3, (const double[]){0.1, radius + 1, radius}); // straight on
+    preset("bend;amount=0", 0.1, 0.2, 1.5, (const double[]){0.1, 0.2, 1.5});
+    preset("twist", 0.3, 0, 2, (const double[]){0, 0.3, 2});
+    preset("taper;amount=.5", 0.4, 0, 2, (const double[]){0.2, 0, 2});
+    preset("bulge", 0.2, 0, 1, (const double[]){0.4, 0, 1});
+    preset("flare", 0.2, 0, 0, (const double[]){0.4, 0, 0});
+    preset("flare", 0.2, 0, 2, (const double[]){0.2, 0, 2});
+    preset("shear;amount=.5", 0, 0, 1, (const double[]){0, 0.5, 1});
+    preset("stretch;amount=3", 0.2, 0, 1, (const double[]){0.1, 0, 4});
+    preset("wave", 0, 0, 0.5, (const double[]){0, 0.2, 0.5});
+    preset("spiral", 0, 0, 1, (const double[]){-0.4, 0, 1});
+    preset("spherify", 0.1, 0, 1, (const double[]){1, 0, 1});
+    // Ruffled by noise, which is nothing at whole numbers of sevenths of the height.
+    preset("ruffle;amount=0", 0.1, 0.3, 1, (const double[]){0.1, 0.3, 1});
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/pgraph/deform/C28 C29 functions and lattices that move nothing", identity);
@@ -425,6 +465,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/pgraph/deform/any number of threads deforms alike", threads);
     g_test_add_func("/pgraph/deform/extreme functions leave everything finite", extremes);
     g_test_add_func("/pgraph/deform/a deformation is no part of paths", no_part_of_paths);
+    g_test_add_func("/pgraph/deform/presets move points as they say", presets);
     g_test_add_func("/pgraph/deform/too many scopes in one another are refused", too_deep);
     g_test_add_func("/pgraph/deform/wrong points, boxes and functions are errors", wrong_texts);
     return g_test_run();

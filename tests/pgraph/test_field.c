@@ -217,6 +217,21 @@ static void threads(void) {
     }
 }
 
+static void sun(void) {
+    // A stem that the light draws for long looks into the sun: azimuth from y over x, elevation.
+    Built built = build("world w sun=yes;sun-azimuth=120;sun-elevation=35;light-x=1\n"
+                        "horn stem phototropism=20\nsimple tip size=.01\nw - stem\nstem - tip");
+    vec3s at;
+    versors rotation;
+    fr_plant_organ_pose(built.plant, built_organ(&built, "tip"), &at, &rotation);
+    vec3s heading = fr_frame_heading(rotation);
+    double level = cos(35 / DEGREES);
+    g_assert_cmpfloat_with_epsilon((double)heading.x, level * sin(120 / DEGREES), 1e-4);
+    g_assert_cmpfloat_with_epsilon((double)heading.y, level * cos(120 / DEGREES), 1e-4);
+    g_assert_cmpfloat_with_epsilon((double)heading.z, sin(35 / DEGREES), 1e-4);
+    built_free(built);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/pgraph/field/light as a field turns stems as the formula says",
@@ -225,6 +240,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/pgraph/field/C34 a vortex makes a helix", vortex);
     g_test_add_func("/pgraph/field/C34 so does gravity that goes round", world_vortex);
     g_test_add_func("/pgraph/field/internodes do not matter in fields", segments_do_not_matter);
+    g_test_add_func("/pgraph/field/C34 a world's sun draws stems to it", sun);
     g_test_add_func("/pgraph/field/C35 a stem finds a stick and keeps to it", around_a_stick);
     g_test_add_func("/pgraph/field/C36 nothing grows behind a wall", behind_the_wall);
     g_test_add_func("/pgraph/field/nothing grows into a ball", solid_ball);
