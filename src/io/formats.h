@@ -16,6 +16,8 @@ FrStatus fr_mtg_write(const FrScene *scene, const char *path, const FrIoOptions 
                       const FrContext *context, FrIoStats *stats);
 FrStatus fr_obj_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                       const FrContext *context, FrIoStats *stats);
+FrStatus fr_opf_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                      const FrContext *context, FrIoStats *stats);
 FrStatus fr_ply_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                       const FrContext *context, FrIoStats *stats);
 FrStatus fr_stl_write(const FrScene *scene, const char *path, const FrIoOptions *options,
