@@ -41,6 +41,9 @@ typedef enum FrTextureKind {
     X(TEXT, roughness_map, "", 0, 0, "", "", "file of the roughness, green channel")               \
     X(REAL, roughness, "0.8", 0, 1, "", "", "0 mirror, 1 matt")                                    \
     X(REAL, translucency, "0", 0, 1, "", "", "part of the light that shines through a blade")      \
+    X(REAL, mirror, "0", 0, 1, "", "", "part of its light thrown back as by a mirror")             \
+    X(REAL, clear, "0", 0, 1, "", "",                                                              \
+      "part of the other light that goes straight through, as through glass")                      \
     X(REAL, alpha_cutoff, "0.5", 0, 1, "", "", "pixels with less alpha are holes")                 \
     X(REAL, relief, "1", 0, 4, "", "", "strength of the normal map")                               \
     X(REAL, tile_width, "0.5", 0.001, 100, "m", "", "width of one bark tile on the stem")          \

@@ -1,6 +1,9 @@
 // Materials of a glTF asset: metallic-roughness, holes as a mask, never blended.
 #include "io/gltf.h"
 
+// The extension for light that goes straight through.
+#define CLEAR "KHR_materials_transmission"
+
 // Names of OpenGL's constants, which glTF uses.
 enum { FR_CLAMP_TO_EDGE = 33071, FR_REPEAT = 10497, FR_LINEAR = 9729, FR_MIPMAPS = 9987 };
 
@@ -25,8 +28,9 @@ static json_t *material_of(const FrSurface *surface, json_t *textures) {
     double tint[3];
     fr_surface_tint(surface, tint);
     json_t *reflection =
-        json_pack("{s:[f, f, f, f], s:i, s:f}", "baseColorFactor", tint[0], tint[1], tint[2], 1.0,
-                  "metallicFactor", 0, "roughnessFactor", params.roughness);
+        json_pack("{s:[f, f, f, f], s:f, s:f}", "baseColorFactor", tint[0], tint[1], tint[2], 1.0,
+                  "metallicFactor", params.mirror, "roughnessFactor",
+                  params.roughness * (1 - params.mirror) * (1 - params.clear));
     json_t *material =
         json_pack("{s:s, s:o}", "name", surface->name, "pbrMetallicRoughness", reflection);
     int texture[FR_MAP_COUNT];
@@ -54,6 +58,11 @@ static json_t *material_of(const FrSurface *surface, json_t *textures) {
     }
     if (surface->is_foliage) {
         json_object_set_new(material, "doubleSided", json_true());
+    }
+    if (params.clear > 0) {
+        json_object_set_new(material, "extensions",
+                            json_pack("{s:{s:f}}", CLEAR, "transmissionFactor",
+                                      (1 - params.mirror) * params.clear));
     }
     return material;
 }
@@ -93,6 +102,23 @@ static json_t *samplers_of(const json_t *textures) {
     return samplers;
 }
 
+/// Names the extensions that materials use, beside those named already.
+static void name_extensions(json_t *root, const json_t *materials) {
+    size_t index;
+    json_t *material;
+    json_array_foreach(materials, index, material) {
+        if (json_object_get(material, "extensions") != NULL) {
+            json_t *used = json_object_get(root, "extensionsUsed");
+            if (used == NULL) {
+                used = json_array();
+                json_object_set_new(root, "extensionsUsed", used);
+            }
+            json_array_append_new(used, json_string(CLEAR));
+            return;
+        }
+    }
+}
+
 void fr_gltf_add_materials(FrGltf *gltf, json_t *root, bool are_files) {
     json_t *materials = json_array();
     json_t *textures = json_array();
@@ -100,6 +126,7 @@ void fr_gltf_add_materials(FrGltf *gltf, json_t *root, bool are_files) {
         json_array_append_new(materials,
                               material_of(fr_surfaces_get(&gltf->surfaces, i), textures));
     }
+    name_extensions(root, materials);
     json_object_set_new(root, "materials", materials);
     json_object_set_new(root, "textures", textures);
     json_object_set_new(root, "samplers", samplers_of(textures));

@@ -149,9 +149,17 @@ static bool write_library(void *user, int descriptor) {
         fr_surface_tint(surface, tint);
         fr_output_text(&output, "\nnewmtl ");
         fr_output_text(&output, surface->name);
-        fr_output_text(&output, "\nillum 2\n");
+        fr_output_text(&output, params.mirror > 0 ? "\nillum 3\n" : "\nillum 2\n");
         add_fixed(&output, "Kd", tint, 3, 6);
-        add_fixed(&output, "Ks", (double[3]){0, 0, 0}, 3, 6);
+        double mirror[3];
+        for (int c = 0; c < 3; c++) {
+            mirror[c] = tint[c] * params.mirror;
+        }
+        add_fixed(&output, "Ks", mirror, 3, 6);
+        if (params.clear > 0) {
+            double opaque = 1 - (1 - params.mirror) * params.clear;
+            add_fixed(&output, "d", &opaque, 1, 4);
+        }
         add_fixed(&output, "Pr", &params.roughness, 1, 4);
         add_picture(obj, &output, "map_Kd ", surface->picture[FR_MAP_COLOUR]);
         add_normal_map(obj, &output, surface->picture[FR_MAP_NORMAL], params.relief);

@@ -72,6 +72,28 @@ static bool classify(const FrBsdf *bsdf, vec3s in, float in_cosine, bool *is_ref
     return side * in_cosine > 0.0f;
 }
 
+FrStraight fr_bsdf_decide(const FrBsdf *bsdf, float *choice, vec3s *factor) {
+    const float mirror = fr_luminance(bsdf->mirror), clear = fr_luminance(bsdf->clear);
+    *factor = glms_vec3_one();
+    if (!(mirror + clear > 0.0f)) {
+        return FR_STRAIGHT_NO;
+    }
+    float rest = fr_luminance(bsdf->reflectance) + fr_luminance(bsdf->transmittance);
+    float sum = mirror + clear + rest;
+    float at = *choice * sum;
+    if (at < mirror) {
+        *factor = glms_vec3_scale(bsdf->mirror, sum / mirror);
+        return FR_STRAIGHT_MIRROR;
+    }
+    if (at < mirror + clear || !(rest > 0.0f)) {
+        *factor = glms_vec3_scale(bsdf->clear, sum / clear);
+        return clear > 0.0f ? FR_STRAIGHT_CLEAR : FR_STRAIGHT_MIRROR;
+    }
+    *factor = glms_vec3_fill(sum / rest);
+    *choice = fminf((at - mirror - clear) / rest, 0x1.fffffep-1f);
+    return FR_STRAIGHT_NO;
+}
+
 vec3s fr_bsdf_eval(const FrBsdf *bsdf, vec3s out, vec3s in) {
     float in_cosine = glms_vec3_dot(bsdf->normal, in);
     float out_cosine = fmaxf(glms_vec3_dot(bsdf->normal, out), 1e-4f);

@@ -43,6 +43,8 @@ FrStatus fr_look_init(FrLook *look, FrMaterial *material, bool is_foliage,
     look->tint = fr_srgb_decode3(fr_material_tint(material));
     look->roughness_factor = (float)params->roughness;
     look->translucency = is_foliage ? (float)params->translucency : 0.0f;
+    look->mirror = (float)params->mirror;
+    look->clear = (float)params->clear;
     look->relief = (float)params->relief;
     look->cutoff = (float)params->alpha_cutoff * 255.0f;
     FrStatus status = load(material, FR_MAP_COLOUR, context, &look->colour);
@@ -174,6 +176,8 @@ void fr_look_scattering(const FrLook *look, const FrDecoder *decoder, float u, f
         roughness *= mix_taps(&taps, 1) / 255.0f;
     }
     float part = look->translucency;
+    bsdf->mirror = glms_vec3_scale(colour, look->mirror);
+    bsdf->clear = glms_vec3_scale(colour, (1.0f - look->mirror) * look->clear);
     bsdf->rough_a = 1.0f;
     bsdf->rough_b = 0.0f;
     bsdf->transmittance = glms_vec3_zero();
@@ -186,7 +190,10 @@ void fr_look_scattering(const FrLook *look, const FrDecoder *decoder, float u, f
     } else {
         fr_bsdf_set_roughness(bsdf, 0.6f * roughness);
     }
-    bsdf->reflectance = glms_vec3_scale(colour, 1.0f - part);
-    bsdf->coat = roughness < 1.0f ? COAT : 0.0f;
+    float matt = (1.0f - look->mirror) * (1.0f - look->clear);
+    bsdf->transmittance = glms_vec3_scale(bsdf->transmittance, matt);
+    bsdf->reflectance = glms_vec3_scale(colour, (1.0f - part) * matt);
+    // Mirrors and glass have their gloss already.
+    bsdf->coat = roughness < 1.0f && matt >= 1.0f ? COAT : 0.0f;
     bsdf->coat_width = fmaxf(roughness * roughness, SMALLEST_WIDTH);
 }

@@ -17,8 +17,9 @@ typedef struct FrLook {
     const FrImage *roughness; ///< borrowed; NULL
     vec3s tint;               ///< linear
     float roughness_factor, translucency, relief;
-    float cutoff;    ///< of alpha, in 0 … 255
-    bool is_foliage; ///< seen from both sides, pictures do not repeat
+    float mirror, clear; ///< parts of the light, and of the other light
+    float cutoff;        ///< of alpha, in 0 … 255
+    bool is_foliage;     ///< seen from both sides, pictures do not repeat
     bool has_holes;
 } FrLook;
 

@@ -160,9 +160,27 @@ FrMet fr_world_trace(const FrWorld *world, vec3s origin, vec3s direction, FrSurf
     return FR_MET_GROUND;
 }
 
-bool fr_world_is_blocked(const FrWorld *world, vec3s origin, vec3s direction, float far) {
+static bool is_blocked(const FrWorld *world, vec3s origin, vec3s direction, float far) {
     if (world->ground != NULL && direction.z < 0.0f && -origin.z > direction.z * far) {
         return true;
     }
     return fr_rays_is_blocked(world->rays, origin, direction, 0.0f, far);
+}
+
+vec3s fr_world_passes(const FrWorld *world, vec3s origin, vec3s direction, float far) {
+    if (!is_blocked(world, origin, direction, far)) {
+        return glms_vec3_one();
+    }
+    vec3s left = world->has_clear ? glms_vec3_one() : glms_vec3_zero();
+    for (int i = 0; i < FR_CLEAR_SURFACES && !fr_is_black(left); i++) {
+        FrSurface surface;
+        if (fr_world_trace(world, origin, direction, &surface) == FR_MET_SKY ||
+            surface.distance >= far) {
+            return left;
+        }
+        left = glms_vec3_mul(left, surface.bsdf.clear);
+        far -= surface.distance;
+        origin = surface.below;
+    }
+    return glms_vec3_zero();
 }

@@ -53,6 +53,9 @@ void fr_world_free(FrWorld *world) {
 
 uint32_t fr_world_add_mesh(FrWorld *world, FrMesh *mesh, FrLook *looks) {
     FrWorldMesh added = {mesh, looks};
+    for (uint32_t i = 0; i < mesh->part_count; i++) {
+        world->has_clear |= looks[i].clear > 0.0f;
+    }
     g_array_append_val(world->meshes, added);
     return fr_rays_add_mesh(world->rays, mesh);
 }

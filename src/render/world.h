@@ -32,6 +32,7 @@ typedef struct FrWorld {
     FrSky *sky;       ///< owned
     FrGround *ground; ///< owned; NULL: none
     FrLampSet lamps;  ///< owned
+    bool has_clear;   ///< something lets light straight through
     vec3s white;      ///< irradiance of white things, roughly: what exposure and colours go by
     double origin[3];
     bool is_framed; ///< views show this box, not what there is
@@ -62,5 +63,8 @@ FR_MUST_USE FrStatus fr_world_of_scene(const FrScene *scene, const FrSkinParams 
 
 /// The first thing along a ray with unit direction.
 FrMet fr_world_trace(const FrWorld *world, vec3s origin, vec3s direction, FrSurface *surface);
-/// True if anything stands between `origin` and what is `far` away; INFINITY is the sky.
-bool fr_world_is_blocked(const FrWorld *world, vec3s origin, vec3s direction, float far);
+/// The part of the light that comes to `origin` from what is `far` away, straight through clear
+/// glass; black where anything else stands between. INFINITY is the sky.
+vec3s fr_world_passes(const FrWorld *world, vec3s origin, vec3s direction, float far);
+/// Surfaces of clear glass that light goes through, one behind the other; after so many it ends.
+enum { FR_CLEAR_SURFACES = 64 };

@@ -96,23 +96,31 @@ static FrStatus add_entry(FrOpticsTable *table, FrMaterial *material, const FrCo
     return status;
 }
 
-static FrLightMaterial surface(float albedo, float translucency) {
-    FrOptics side = {.diffuse = albedo * (1 - translucency),
-                     .transmit_diffuse = albedo * translucency};
+static FrLightMaterial surface(float albedo, float mirror, float clear, float translucency) {
+    float straight = albedo * (1 - mirror) * clear;
+    float matt = albedo * (1 - mirror) * (1 - clear);
+    FrOptics side = {.diffuse = matt * (1 - translucency),
+                     .specular = albedo * mirror,
+                     .transmit_diffuse = matt * translucency,
+                     .transmit_specular = straight};
     return (FrLightMaterial){.front = side, .back = side};
 }
 
 FrStatus fr_optics_of(FrOpticsTable *table, FrMaterial *material, bool is_foliage,
                       const FrContext *context, FrLightMaterial *optics) {
     if (material == NULL) {
-        *optics = is_foliage ? surface(PLAIN_LEAF, PLAIN_TRANSLUCENCY) : surface(PLAIN_WOOD, 0);
+        *optics = is_foliage ? surface(PLAIN_LEAF, 0, 0, PLAIN_TRANSLUCENCY)
+                             : surface(PLAIN_WOOD, 0, 0, 0);
         return FR_OK;
     }
     uint32_t place = GPOINTER_TO_UINT(g_hash_table_lookup(table->places, material));
     const Entry *entry = place == 0 ? NULL : &g_array_index(table->entries, Entry, place - 1);
     FrStatus status = entry == NULL ? add_entry(table, material, context, &entry) : FR_OK;
-    float translucency = is_foliage ? (float)fr_material_params(material)->translucency : 0;
-    *optics = surface(fminf(entry->albedo, 1), translucency);
+    const FrMaterialParams *params = fr_material_params(material);
+    float translucency = is_foliage ? (float)params->translucency : 0;
+    // A little below 1, as rounding must not make more light than there was.
+    *optics = surface(fminf(entry->albedo, 0.999999F), (float)params->mirror, (float)params->clear,
+                      translucency);
     if (is_foliage && entry->has_holes) {
         optics->mask = (uint32_t)(entry - (const Entry *)(const void *)table->entries->data) + 1;
     }

@@ -251,7 +251,8 @@ static void leaves_have_their_material(void) {
     g_assert_cmpstr(json_string_value(member(leaf, "alphaMode")), ==, "MASK");
     g_assert_cmpfloat(json_number_value(member(leaf, "alphaCutoff")), ==, 0.5);
     json_t *reflection = member(leaf, "pbrMetallicRoughness");
-    g_assert_cmpint(json_integer_value(member(reflection, "metallicFactor")), ==, 0);
+    g_assert_cmpfloat(json_number_value(member(reflection, "metallicFactor")), ==, 0);
+    g_assert_null(member(glb.json, "extensionsUsed"));
     // Normal maps come with tangents: unit, perpendicular to the normals, with a sign.
     size_t p;
     json_t *primitive;
@@ -286,6 +287,36 @@ static void leaves_have_their_material(void) {
         g_assert_cmpstr(json_string_value(member(image, "mimeType")), ==, "image/png");
         g_assert_true(memcmp(glb.buffer + integer(view, "byteOffset"), "\x89PNG", 4) == 0);
     }
+    glb_clear(&glb);
+    fr_scene_free(scene);
+    remove_folder(folder);
+}
+
+static void mirrors_and_glass(void) {
+    char *folder = folder_new();
+    FrScene *scene = scene_new();
+    FrPlant *lamp = plant_with_leaves("lamp", 1, FR_TEXTURE_NONE, FR_TEXTURE_NONE);
+    FrMaterialParams params;
+    fr_params_init(fr_material_table(), &params);
+    params.roughness = 0.5;
+    params.mirror = 0.25;
+    params.clear = 0.5;
+    fr_material_unref(lamp->materials->pdata[0]);
+    lamp->materials->pdata[0] = fr_material_new("pane", &params, ".", (FrSpan){0});
+    fr_params_clear(fr_material_table(), &params);
+    scene_stand(scene, scene_add(scene, lamp), 0, 0, 0, 1);
+    write_scene(scene, folder, "a.glb", FR_LEAVES_MERGED);
+    Glb glb = glb_read(folder, "a.glb");
+    json_t *pane = element(&glb, "materials", 0);
+    json_t *reflection = member(pane, "pbrMetallicRoughness");
+    json_t *through = member(member(pane, "extensions"), "KHR_materials_transmission");
+    g_assert_cmpfloat(json_number_value(member(reflection, "metallicFactor")), ==, 0.25);
+    g_assert_cmpfloat(json_number_value(member(reflection, "roughnessFactor")), ==, 0.1875);
+    g_assert_cmpfloat(json_number_value(member(through, "transmissionFactor")), ==, 0.375);
+    json_t *used = member(glb.json, "extensionsUsed");
+    g_assert_cmpuint(json_array_size(used), ==, 1);
+    g_assert_cmpstr(json_string_value(json_array_get(used, 0)), ==, "KHR_materials_transmission");
+    g_assert_null(member(element(&glb, "materials", 1), "extensions"));
     glb_clear(&glb);
     fr_scene_free(scene);
     remove_folder(folder);
@@ -432,6 +463,7 @@ int main(int argc, char **argv) {
                     leaves_stand_alike);
     g_test_add_func("/io/gltf/leaves are masked and double-sided, barks repeat",
                     leaves_have_their_material);
+    g_test_add_func("/io/gltf/mirrors are metal and glass transmits", mirrors_and_glass);
     g_test_add_func("/io/gltf/a stem painted as a leaf has no holes", wood_is_whole);
     g_test_add_func("/io/gltf/colours are written linear", plain_colours_are_linear);
     g_test_add_func("/io/gltf/a .gltf has the same buffer and its pictures beside it",

@@ -100,6 +100,75 @@ static void test_backlight(void) {
     fr_world_free(world);
 }
 
+// The parts of a surface that is mirror, clear glass, blade and matt at once sum up to its colour.
+static void test_furnace_straight(void) {
+    static const float parts[4][3] = {{1, 0, 0}, {0, 1, 0}, {0.3f, 0.6f, 0.5f}, {0.5f, 0.5f, 0}};
+    for (int i = 0; i < 4; i++) {
+        FrWorld *world = fr_world_new(fr_sky_new_uniform(grey(1.0f), true), NULL);
+        FrLook *look = matt(grey(1.0f), parts[i][2]);
+        look->mirror = parts[i][0];
+        look->clear = parts[i][1];
+        uint32_t mesh = fr_world_add_mesh(world, square(), look);
+        mat4s identity = glms_mat4_identity();
+        fr_world_add_stand(world, mesh, glms_rotate(identity, 0.6f, (vec3s){{1, 0, 0}}));
+        fr_world_add_stand(world, mesh, glms_rotate(identity, -0.6f, (vec3s){{1, 0, 0}}));
+        fr_world_commit(world);
+        vec3s seen = look_along(world, (vec3s){{0.2f, -0.3f, 4}}, down, 4096, 64);
+        g_assert_cmpfloat_with_epsilon(seen.g, 1.0, 0.01);
+        fr_world_free(world);
+    }
+}
+
+// A matt square below a pane: light of sun and sky comes down through the pane and up again.
+static void test_glass(void) {
+    FrSky *sky = fr_sky_new_uniform(grey(0.2f), true);
+    fr_sky_set_sun(sky, (vec3s){{0, 0, 1}}, grey(1.0f));
+    FrWorld *world = fr_world_new(sky, NULL);
+    FrLook *glass = matt((vec3s){{0.9f, 0.8f, 0.5f}}, 0.0f);
+    glass->clear = 1.0f;
+    uint32_t floor = fr_world_add_mesh(world, square(), matt(grey(0.6f), 0.0f));
+    uint32_t pane = fr_world_add_mesh(world, square(), glass);
+    fr_world_add_stand(world, floor, glms_mat4_identity());
+    mat4s above = glms_translate(glms_mat4_identity(), (vec3s){{0, 0, 0.5f}});
+    fr_world_add_stand(world, pane, glms_scale_uni(above, 200.0f));
+    fr_world_commit(world);
+    for (uint32_t bounces = 0; bounces < 4; bounces += 3) {
+        vec3s seen = look_along(world, (vec3s){{0.2f, 0.3f, 2}}, down, 4096, bounces);
+        for (int c = 0; c < 3; c++) {
+            double through = (double)glass->tint.raw[c];
+            double want = through * through * 0.6 * (1.0 / G_PI + 0.2);
+            g_assert_cmpfloat_with_epsilon((double)seen.raw[c], want, 0.01 * want);
+        }
+    }
+    fr_world_free(world);
+}
+
+// In a mirror at 45 degrees a matt square below is as bright as seen straight, times what the
+// mirror throws back; and the sun is seen in it.
+static void test_mirror(void) {
+    FrSky *sky = fr_sky_new_uniform(glms_vec3_zero(), true);
+    fr_sky_set_sun(sky, (vec3s){{-0.6f, 0, 0.8f}}, grey(1.0f));
+    FrWorld *world = fr_world_new(sky, NULL);
+    FrLook *silver = matt(grey(0.8f), 0.0f);
+    silver->mirror = 1.0f;
+    uint32_t floor = fr_world_add_mesh(world, square(), matt(grey(0.6f), 0.0f));
+    uint32_t mirror = fr_world_add_mesh(world, square(), silver);
+    fr_world_add_stand(world, floor, glms_mat4_identity());
+    mat4s high = glms_translate(glms_mat4_identity(), (vec3s){{0, 0, 5}});
+    fr_world_add_stand(world, mirror, glms_rotate(high, 0.25f * FR_PI_F, (vec3s){{0, 1, 0}}));
+    fr_world_commit(world);
+    vec3s seen = look_along(world, (vec3s){{-4, 0.2f, 5}}, (vec3s){{1, 0, 0}}, 64, 1);
+    g_assert_cmpfloat_with_epsilon(seen.g, 0.8 * 0.6 * 0.8 / G_PI, 1e-4);
+    FrSampler sampler = fr_sampler(5, 9, 0, 1);
+    FrPathSample sample =
+        fr_path_trace(world, (vec3s){{-4, 0.2f, 5}}, (vec3s){{1, 0, 0}}, &sampler, 1);
+    g_assert_cmpfloat_with_epsilon(sample.albedo.g, 0.6, 1e-6);
+    fr_sky_set_sun(sky, (vec3s){{-1, 0, 0}}, grey(1.0f));
+    seen = look_along(world, (vec3s){{0, 0.2f, 2}}, (vec3s){{0, 0, 1}}, 64, 1);
+    g_assert_cmpfloat(seen.g, >, 5.0f);
+    fr_world_free(world);
+}
+
 // A green leaf lit from behind is yellower and more saturated than lit from the front.
 static void test_leaf_colours(void) {
     FrDecoder decoder;
@@ -229,6 +298,11 @@ int main(int argc, char **argv) {
                     test_furnace_leaf);
     g_test_add_func("/render/path/a matt sphere in the sun follows Lambert's law", test_sphere);
     g_test_add_func("/render/path/light from behind shines through by its part", test_backlight);
+    g_test_add_func("/render/path/mirror, glass, blade and matt share one light",
+                    test_furnace_straight);
+    g_test_add_func("/render/path/sun and sky shine through glass, and are seen through it",
+                    test_glass);
+    g_test_add_func("/render/path/a mirror shows what is around the corner", test_mirror);
     g_test_add_func("/render/path/light through leaves is yellower, through petals unchanged",
                     test_leaf_colours);
     g_test_add_func("/render/path/holes let sun and eye through", test_mask);
