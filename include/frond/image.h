@@ -23,3 +23,15 @@ FR_API GBytes *fr_image_to_png(const FrImage *image);
 /// Reads a PNG or JPEG from memory.
 FR_API FrImage *fr_image_from_bytes(const void *data, size_t size, const char *name, FrSpan span,
                                     const FrContext *context, FrStatus *status);
+
+/// Heights from a picture, rows from the top, 0 (black) to 1 (white).
+typedef struct FrHeightMap {
+    uint32_t width, height;
+    float *heights; ///< owned
+} FrHeightMap;
+
+/// Reads a PNG of 8 or 16 bits a channel without any correction of brightness; colours count by how
+/// bright they are. NULL, *status and a diagnostic at `span` if it cannot be read.
+FR_API FrHeightMap *fr_height_map_load(const char *path, FrSpan span, const FrContext *context,
+                                       FrStatus *status);
+FR_API void fr_height_map_free(FrHeightMap *map);

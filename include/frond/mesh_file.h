@@ -34,5 +34,10 @@ typedef struct FrMeshFile {
 /// compared with the limits before anything is read.
 FR_API FrMeshFile *fr_mesh_file_load(const char *folder, const char *name, FrSpan span,
                                      const FrContext *context, FrStatus *status);
+/// Triangles that are made, not read, of one part. Takes the arrays; `normals` may be NULL: smooth
+/// ones are made. Takes a reference to `material`, which may be NULL.
+FR_API FrMeshFile *fr_mesh_file_new(vec3s *positions, vec3s *normals, float (*uvs)[2],
+                                    uint32_t vertex_count, uint32_t *indices, uint32_t index_count,
+                                    FrMaterial *material);
 FR_API FrMeshFile *fr_mesh_file_ref(FrMeshFile *file);
 FR_API void fr_mesh_file_unref(FrMeshFile *file);

@@ -2,9 +2,7 @@
 /// Many plants at once: in rows along a line, or strewn over an area.
 #pragma once
 
-#include "frond/image.h"
-#include "frond/param.h"
-#include "frond/variation.h"
+#include "frond/surroundings.h"
 
 /// What rows and strewn plants have in common.
 #define FR_SPREAD_PARAMS(X)                                                                        \
@@ -63,7 +61,6 @@ typedef struct FrStrew {
     FrSpan span;
 } FrStrew;
 
-enum { FR_ROW_STRAIGHT, FR_ROW_SMOOTH };
 enum { FR_STREW_SQUARE, FR_STREW_DISC };
 
 FR_API const FrParamTable *fr_row_table(void);

@@ -3,22 +3,43 @@
 /// the light.
 #pragma once
 
+#include "frond/image.h"
 #include "frond/light_density.h"
 #include "frond/material.h"
 #include "frond/mesh_file.h"
 #include "frond/param.h"
+#include "frond/variation.h"
 
 /// An `<obstacle>`: something that stands in the way of light.
 #define FR_OBSTACLE_PARAMS(X)                                                                      \
-    X(CHOICE, shape, "box", 0, 0, "", "box sphere cylinder cone square circle mesh",               \
-      "its form; square and circle are flat and stand, facing y; a mesh is read from `file`")      \
+    X(CHOICE, shape, "box", 0, 0, "", "box sphere cylinder cone square circle mesh sweep",         \
+      "its form; square and circle are flat and stand, facing y; a mesh is read from `file`; a "   \
+      "sweep is drawn along the points x,y,z of its text")                                         \
     X(VECTOR, at, "0, 0, 0", -1000000, 1000000, "m", "", "the middle of its base")                 \
     X(VECTOR, size, "1, 1, 1", 0.0001, 1000000, "m", "",                                           \
-      "extent along x, y and z; of a mesh the factors of its own size")                            \
+      "extent along x, y and z; of a mesh the factors of its own size; of a sweep its width, "     \
+      "nothing, and its height over its line")                                                     \
     X(TEXT, file, "", 0, 0, "", "", "file of triangles for shape=mesh")                            \
     X(REAL, tilt, "0", -360, 360, "deg", "", "turned about the x axis first …")                    \
     X(REAL, turn, "0", -360000, 360000, "deg", "", "… and then about the vertical")                \
-    X(TEXT, material, "", 0, 0, "", "", "id of its material; empty: grey")
+    X(TEXT, material, "", 0, 0, "", "", "id of its material; empty: grey")                         \
+    X(CHOICE, section, "round", 0, 0, "", "round square", "of a sweep")                            \
+    X(CHOICE, line, "straight", 0, 0, "", "straight smooth",                                       \
+      "a sweep goes from point to point, or on a curve through them")                              \
+    X(SWITCH, visible, "yes", 0, 1, "", "",                                                        \
+      "no: only keeps growing plants out; gives no shade and is in no model or picture")
+
+/// A `<terrain>`: what plants stand on.
+#define FR_TERRAIN_PARAMS(X)                                                                       \
+    X(TEXT, file, "", 0, 0, "", "",                                                                \
+      "a height map (.png, its top towards +y, white is high) or a mesh (.obj .stl .gltf .glb)")   \
+    X(VECTOR, at, "0, 0, 0", -1000000, 1000000, "m", "",                                           \
+      "the middle of a height map's base, or the origin of a mesh")                                \
+    X(VECTOR, size, "1, 1, 1", 0.0001, 1000000, "m", "",                                           \
+      "extent of a height map along x, y and z; of a mesh the factors of its own size")            \
+    X(REAL, turn, "0", -360000, 360000, "deg", "", "turned about the vertical")                    \
+    X(INTEGER, points, "257", 2, 4097, "", "", "of the longer side of a height map at most")       \
+    X(TEXT, material, "", 0, 0, "", "", "id of its material; empty: earth")
 
 /// A `<lamp>`.
 #define FR_LAMP_PARAMS(X)                                                                          \
@@ -60,14 +81,24 @@
 enum { FR_LIGHT_BY_VIEWS, FR_LIGHT_BY_DENSITY, FR_LIGHT_BY_SHADOWS };
 enum { FR_LIGHT_TOWARDS_BRIGHTEST, FR_LIGHT_TOWARDS_MEAN };
 
-enum { FR_OBSTACLE_MESH = 6 };
+enum { FR_OBSTACLE_MESH = 6, FR_OBSTACLE_SWEEP };
+enum { FR_SECTION_ROUND, FR_SECTION_SQUARE };
+enum { FR_LINE_STRAIGHT, FR_LINE_SMOOTH };
 
 typedef struct FrObstacle {
     FR_OBSTACLE_PARAMS(FR_PARAM_FIELD)
     FrMaterial *made_of; ///< borrowed from the document; NULL: grey, or what the file says
     FrMeshFile *mesh;    ///< of FR_OBSTACLE_MESH, owned; else NULL
+    FrStroke *along;     ///< of FR_OBSTACLE_SWEEP, owned; else NULL
     FrSpan span;
 } FrObstacle;
+typedef struct FrTerrain {
+    FR_TERRAIN_PARAMS(FR_PARAM_FIELD)
+    FrMaterial *made_of;  ///< borrowed from the document; NULL: earth, or what the file says
+    FrMeshFile *mesh;     ///< of a file of triangles, owned; else NULL
+    FrHeightMap *heights; ///< of a picture, owned; else NULL
+    FrSpan span;
+} FrTerrain;
 typedef struct FrLampParams {
     FR_LAMP_PARAMS(FR_PARAM_FIELD)
     FrSpan span;
@@ -83,6 +114,7 @@ typedef struct FrLightParams {
 } FrLightParams;
 
 FR_API const FrParamTable *fr_obstacle_table(void);
+FR_API const FrParamTable *fr_terrain_table(void);
 FR_API const FrParamTable *fr_lamp_table(void);
 FR_API const FrParamTable *fr_sun_table(void);
 FR_API const FrParamTable *fr_light_table(void);
@@ -90,6 +122,7 @@ FR_API const FrParamTable *fr_light_table(void);
 /// What stands around the plants of a document.
 typedef struct FrSurroundings {
     GPtrArray *obstacles; ///< FrObstacle *
+    FrTerrain *terrain;   ///< NULL: level ground
     GPtrArray *lamps;     ///< FrLampParams *
     FrSunParams sun;
     FrLightParams light;

@@ -167,7 +167,8 @@ static bool check_obstacles_spared(const CliOptions *options, const FrDocument *
             return false;
         }
     }
-    return true;
+    const FrTerrain *terrain = fr_document_surroundings(document)->terrain;
+    return terrain == NULL || is_spared(options, document, terrain->file);
 }
 
 static bool check_densities_spared(const CliOptions *options, const FrDocument *document) {

@@ -121,12 +121,14 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                           .table = &scene_table,
                           .is_once = true,
                           .children = SET(SUN) | SET(LIGHT) | SET(LAMP) | SET(OBSTACLE) |
-                                      SET(PLACE) | SET(ROW) | SET(STREW) | SET(VIEW)},
+                                      SET(TERRAIN) | SET(PLACE) | SET(ROW) | SET(STREW) |
+                                      SET(VIEW)},
     [FR_ELEMENT_PLACE] = {.name = "place", .table = &place_table, .required = "plant"},
     [FR_ELEMENT_ROW] = {.name = "row", .required = "plants", .has_text = true},
     [FR_ELEMENT_STREW] = {.name = "strew", .required = "plants"},
     [FR_ELEMENT_VIEW] = {.name = "view", .table = &view_table, .required = "name"},
-    [FR_ELEMENT_OBSTACLE] = {.name = "obstacle"},
+    [FR_ELEMENT_OBSTACLE] = {.name = "obstacle", .has_text = true},
+    [FR_ELEMENT_TERRAIN] = {.name = "terrain", .is_once = true, .required = "file"},
     [FR_ELEMENT_LAMP] = {.name = "lamp"},
     [FR_ELEMENT_SUN] = {.name = "sun", .is_once = true},
     [FR_ELEMENT_LIGHT] = {.name = "light", .is_once = true},
@@ -160,8 +162,8 @@ FrElement fr_element(FrElementId id) {
     } else if (id == FR_ELEMENT_STREW) {
         element.table = fr_strew_table();
     } else if (id >= FR_ELEMENT_OBSTACLE && id <= FR_ELEMENT_LIGHT) {
-        const FrParamTable *tables[] = {fr_obstacle_table(), fr_lamp_table(), fr_sun_table(),
-                                        fr_light_table()};
+        const FrParamTable *tables[] = {fr_obstacle_table(), fr_terrain_table(), fr_lamp_table(),
+                                        fr_sun_table(), fr_light_table()};
         element.table = tables[id - FR_ELEMENT_OBSTACLE];
     }
     if (element.meaning == NULL) {

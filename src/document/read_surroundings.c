@@ -1,4 +1,5 @@
-/// What stands and shines around plants: `<obstacle>`, `<lamp>`, `<sun>` and `<light>` of a scene.
+/// What stands and shines around plants: `<obstacle>`, `<terrain>`, `<lamp>`, `<sun>` and `<light>`
+/// of a scene.
 #include "document/reader.h"
 #include "frond/daylight.h"
 
@@ -17,6 +18,17 @@ static void read_obstacle_mesh(FrReader *reader, uint32_t node, FrObstacle *obst
     fr_read_note(reader, status);
 }
 
+/// Only what is drawn along a line has a text.
+static void check_no_line(FrReader *reader, uint32_t node) {
+    FrXmlRange place;
+    char *text = fr_read_text(reader, node, &place);
+    if (*g_strstrip(text) != '\0') {
+        fr_read_error(reader, "unexpected-text", place,
+                      "only an <obstacle> with shape='sweep' has a text");
+    }
+    g_free(text);
+}
+
 static void read_obstacle(FrReader *reader, uint32_t node) {
     fr_read_check_children(reader, node, FR_ELEMENT_OBSTACLE);
     FrObstacle *obstacle = g_new0(FrObstacle, 1);
@@ -27,7 +39,33 @@ static void read_obstacle(FrReader *reader, uint32_t node) {
     if (obstacle->shape == FR_OBSTACLE_MESH) {
         read_obstacle_mesh(reader, node, obstacle);
     }
+    if (obstacle->shape == FR_OBSTACLE_SWEEP) {
+        obstacle->along = fr_read_line(reader, node);
+    } else {
+        check_no_line(reader, node);
+    }
     g_ptr_array_add(reader->document->surroundings.obstacles, obstacle);
+}
+
+static void read_terrain(FrReader *reader, uint32_t node) {
+    fr_read_check_children(reader, node, FR_ELEMENT_TERRAIN);
+    FrTerrain *terrain = g_new0(FrTerrain, 1);
+    fr_params_init(fr_terrain_table(), terrain);
+    terrain->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
+    fr_read_attributes(reader, node, FR_ELEMENT_TERRAIN, terrain);
+    terrain->made_of = fr_read_material(reader, node, "material", terrain->material);
+    reader->document->surroundings.terrain = terrain;
+    FrSpan span = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "file"));
+    FrStatus status = FR_OK;
+    char *path = fr_read_path(reader, node, "file", terrain->file);
+    if (path != NULL && g_str_has_suffix(path, ".png")) {
+        terrain->heights = fr_height_map_load(path, span, reader->context, &status);
+    } else if (path != NULL) {
+        terrain->mesh = fr_mesh_file_load(reader->document->folder, terrain->file, span,
+                                          reader->context, &status);
+    }
+    fr_read_note(reader, status);
+    g_free(path);
 }
 
 static void read_lamp(FrReader *reader, uint32_t node) {
@@ -95,6 +133,10 @@ void fr_read_surroundings(FrReader *reader, uint32_t scene) {
          node = fr_read_next(reader, node, FR_ELEMENT_OBSTACLE)) {
         read_obstacle(reader, node);
     }
+    uint32_t terrain = fr_read_first(reader, scene, FR_ELEMENT_TERRAIN);
+    if (terrain != FR_NONE) {
+        read_terrain(reader, terrain);
+    }
     for (uint32_t node = fr_read_first(reader, scene, FR_ELEMENT_LAMP); node != FR_NONE;
          node = fr_read_next(reader, node, FR_ELEMENT_LAMP)) {
         read_lamp(reader, node);
@@ -111,8 +153,18 @@ void fr_read_surroundings(FrReader *reader, uint32_t scene) {
 
 static void free_obstacle(void *obstacle) {
     fr_mesh_file_unref(((FrObstacle *)obstacle)->mesh);
+    fr_stroke_unref(((FrObstacle *)obstacle)->along);
     fr_params_clear(fr_obstacle_table(), obstacle);
     g_free(obstacle);
+}
+
+static void free_terrain(FrTerrain *terrain) {
+    if (terrain != NULL) {
+        fr_mesh_file_unref(terrain->mesh);
+        fr_height_map_free(terrain->heights);
+        fr_params_clear(fr_terrain_table(), terrain);
+        g_free(terrain);
+    }
 }
 
 static void free_lamp(void *lamp) {
@@ -130,6 +182,7 @@ void fr_surroundings_init(FrSurroundings *surroundings) {
 void fr_surroundings_clear(FrSurroundings *surroundings) {
     g_ptr_array_unref(surroundings->obstacles);
     g_ptr_array_unref(surroundings->lamps);
+    free_terrain(surroundings->terrain);
     fr_params_clear(fr_sun_table(), &surroundings->sun);
     fr_params_clear(fr_light_table(), &surroundings->light);
 }

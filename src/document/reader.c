@@ -261,20 +261,23 @@ FrStroke *fr_read_line(FrReader *reader, uint32_t node) {
     return line;
 }
 
-FrImage *fr_read_picture(FrReader *reader, uint32_t node, const char *attribute, const char *file) {
+char *fr_read_path(FrReader *reader, uint32_t node, const char *attribute, const char *file) {
     if (file == NULL || *file == '\0' || reader->context == NULL) {
         return NULL;
     }
-    FrXmlRange place = fr_read_value_place(reader, node, attribute);
     if (g_path_is_absolute(file)) {
-        fr_read_error(reader, "absolute-path", place,
+        fr_read_error(reader, "absolute-path", fr_read_value_place(reader, node, attribute),
                       "files are named relative to the document, not '%s'", file);
         return NULL;
     }
-    char *path = g_build_filename(reader->document->folder, file, NULL);
+    return g_build_filename(reader->document->folder, file, NULL);
+}
+
+FrImage *fr_read_picture(FrReader *reader, uint32_t node, const char *attribute, const char *file) {
+    char *path = fr_read_path(reader, node, attribute, file);
     FrStatus status = FR_OK;
-    FrImage *image =
-        fr_image_load(path, fr_xml_span(reader->tree, place), reader->context, &status);
+    FrSpan span = fr_xml_span(reader->tree, fr_read_value_place(reader, node, attribute));
+    FrImage *image = path == NULL ? NULL : fr_image_load(path, span, reader->context, &status);
     fr_read_note(reader, status);
     g_free(path);
     return image;

@@ -87,6 +87,8 @@ char *fr_read_text(const FrReader *reader, uint32_t node, FrXmlRange *place);
 /// The line that the text within an element gives, point by point; NULL with an error. Free with
 /// fr_stroke_unref().
 FrStroke *fr_read_line(FrReader *reader, uint32_t node);
+/// Where a file that an attribute names lies; NULL for none, or with an error. Free with g_free().
+char *fr_read_path(FrReader *reader, uint32_t node, const char *attribute, const char *file);
 /// The picture that an attribute names, relative to the document; NULL for none, or with an error.
 FrImage *fr_read_picture(FrReader *reader, uint32_t node, const char *attribute, const char *file);
 void fr_read_note(FrReader *reader, FrStatus status);

@@ -6,6 +6,8 @@
 
 enum { LISTED_PATHS = 12 };
 
+#define SET(id) ((FrElementSet)1 << FR_ELEMENT_##id)
+
 /// An element that a path may name, with the names to reach it by.
 typedef struct Target {
     uint32_t node;
@@ -22,8 +24,9 @@ static void clear_target(void *data) {
 
 /// What a path calls an element, or NULL.
 static char *name_of(const FrXmlTree *tree, uint32_t node, FrElementId element) {
-    if (element == FR_ELEMENT_SCENE || element == FR_ELEMENT_SUN || element == FR_ELEMENT_LIGHT ||
-        element == FR_ELEMENT_LSYSTEM || element == FR_ELEMENT_VARY) {
+    const FrElementSet named =
+        SET(SCENE) | SET(SUN) | SET(LIGHT) | SET(TERRAIN) | SET(LSYSTEM) | SET(VARY);
+    if ((named >> element & 1) != 0) {
         return g_strdup(fr_element(element).name);
     }
     const FrXmlAttribute *attribute =

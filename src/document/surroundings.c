@@ -4,6 +4,9 @@
 #define FR_PARAM_STRUCT FrObstacle
 static const FrParam obstacle_rows[] = {FR_OBSTACLE_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
+#define FR_PARAM_STRUCT FrTerrain
+static const FrParam terrain_rows[] = {FR_TERRAIN_PARAMS(FR_PARAM_ROW)};
+#undef FR_PARAM_STRUCT
 #define FR_PARAM_STRUCT FrLampParams
 static const FrParam lamp_rows[] = {FR_LAMP_PARAMS(FR_PARAM_ROW)};
 #undef FR_PARAM_STRUCT
@@ -25,6 +28,7 @@ static const FrParam light_rows[] = {FR_LIGHT_PARAMS(FR_PARAM_ROW) FR_DENSITY_PA
     }
 
 TABLE(obstacle, FrObstacle, "something that stands in the way of plants and light")
+TABLE(terrain, FrTerrain, "ground with hills that plants stand on")
 TABLE(lamp, FrLampParams, "a lamp; plants and pictures are lit by it")
 TABLE(sun, FrSunParams, "where the sun stands, by date, time and place instead of by two angles")
 TABLE(light, FrLightParams, "how plants sense the light where they stand")

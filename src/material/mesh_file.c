@@ -1,6 +1,7 @@
 // Files of triangles: everything about them but assimp (mesh_file_assimp.c).
 #include "material/mesh_file.h"
 
+#include <cglm/struct.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -156,6 +157,53 @@ static FrDigest digest_of(const FrMeshFile *file) {
     return digest;
 }
 
+// What is known of triangles once they are there.
+static void settle(FrMeshFile *file) {
+    mend_normals(file);
+    bound(file);
+    file->is_closed = is_closed(file);
+    file->digest = digest_of(file);
+}
+
+// ---- made ---------------------------------------------------------------------------------------
+
+static vec3s *smooth_normals(const FrMeshFile *file) {
+    vec3s *normals = g_new0(vec3s, MAX(file->vertex_count, 1));
+    for (uint32_t i = 0; i < file->index_count; i += 3) {
+        const uint32_t *corner = &file->indices[i];
+        vec3s a = file->positions[corner[0]];
+        vec3s normal = glms_vec3_cross(glms_vec3_sub(file->positions[corner[1]], a),
+                                       glms_vec3_sub(file->positions[corner[2]], a));
+        for (int k = 0; k < 3; k++) {
+            normals[corner[k]] = glms_vec3_add(normals[corner[k]], normal);
+        }
+    }
+    for (uint32_t i = 0; i < file->vertex_count; i++) {
+        normals[i] = glms_vec3_normalize(normals[i]);
+    }
+    return normals;
+}
+
+FrMeshFile *fr_mesh_file_new(vec3s *positions, vec3s *normals, float (*uvs)[2],
+                             uint32_t vertex_count, uint32_t *indices, uint32_t index_count,
+                             FrMaterial *material) {
+    FrMeshFile *file = g_new0(FrMeshFile, 1);
+    g_atomic_ref_count_init(&file->references);
+    file->positions = positions;
+    file->uvs = uvs;
+    file->indices = indices;
+    file->vertex_count = vertex_count;
+    file->index_count = index_count;
+    file->normals = normals != NULL ? normals : smooth_normals(file);
+    file->parts = g_new0(FrMeshFilePart, 1);
+    file->parts[0] =
+        (FrMeshFilePart){.index_count = index_count,
+                         .material = material != NULL ? fr_material_ref(material) : NULL};
+    file->part_count = 1;
+    settle(file);
+    return file;
+}
+
 // ---- files --------------------------------------------------------------------------------------
 
 FrMeshFile *fr_mesh_file_load(const char *folder, const char *name, FrSpan span,
@@ -186,10 +234,7 @@ FrMeshFile *fr_mesh_file_load(const char *folder, const char *name, FrSpan span,
         fr_mesh_file_unref(file);
         return NULL;
     }
-    mend_normals(file);
-    bound(file);
-    file->is_closed = is_closed(file);
-    file->digest = digest_of(file);
+    settle(file);
     return file;
 }
 

@@ -131,7 +131,7 @@ typedef struct Line {
 
 static Line open_line(const FrRow *row) {
     Line line = {.stroke = row->along, .length = fr_stroke_length(row->along)};
-    if (row->line == FR_ROW_SMOOTH) {
+    if (row->line == FR_LINE_SMOOTH) {
         size_t count;
         const FrStrokePoint *points = fr_stroke_points(row->along, &count);
         vec3s *at = g_new(vec3s, count);
@@ -324,7 +324,16 @@ static FrStatus add_strew(Placing *placing, const FrStrew *strew) {
     return status;
 }
 
-FrStatus fr_scene_places(const FrDocument *document, const FrContext *context, GArray **placed) {
+/// Heights of places count from the ground.
+static void stand_on(const FrHills *hills, GArray *placed) {
+    for (guint i = 0; hills != NULL && i < placed->len; i++) {
+        double *at = g_array_index(placed, FrPlaced, i).stand.at, height;
+        at[2] += fr_hills_height(hills, at[0], at[1], &height) ? height : 0;
+    }
+}
+
+FrStatus fr_scene_places(const FrDocument *document, const FrHills *hills, const FrContext *context,
+                         GArray **placed) {
     Placing placing = {context, g_hash_table_new(g_str_hash, g_str_equal),
                        g_array_new(FALSE, FALSE, sizeof(FrPlaced))};
     const GPtrArray *plants = fr_document_plants(document);
@@ -351,6 +360,7 @@ FrStatus fr_scene_places(const FrDocument *document, const FrContext *context, G
         status = add_strew(&placing, g_ptr_array_index(strews, i));
     }
     g_hash_table_unref(placing.plants);
+    stand_on(hills, placing.placed);
     if (status != FR_OK) {
         g_array_unref(placing.placed);
         placing.placed = NULL;
@@ -361,7 +371,7 @@ FrStatus fr_scene_places(const FrDocument *document, const FrContext *context, G
 
 FrStatus fr_scene_count(const FrDocument *document, const FrContext *context, uint64_t *count) {
     GArray *placed;
-    FrStatus status = fr_scene_places(document, context, &placed);
+    FrStatus status = fr_scene_places(document, NULL, context, &placed);
     *count = placed != NULL ? placed->len : 0;
     g_clear_pointer(&placed, g_array_unref);
     return status;

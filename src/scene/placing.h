@@ -2,7 +2,7 @@
 /// All plants of a document with their places. Private to scene.
 #pragma once
 
-#include "frond/scene.h"
+#include "scene/terrain.h"
 
 /// A plant that is to stand somewhere.
 typedef struct FrPlaced {
@@ -14,6 +14,6 @@ typedef struct FrPlaced {
 } FrPlaced;
 
 /// FrPlaced, by hand first, then rows, then areas; free with g_array_unref(). Empty if the document
-/// places nothing.
-FR_MUST_USE FrStatus fr_scene_places(const FrDocument *document, const FrContext *context,
-                                     GArray **placed);
+/// places nothing. They stand on `hills`, where there are any; NULL: on level ground.
+FR_MUST_USE FrStatus fr_scene_places(const FrDocument *document, const FrHills *hills,
+                                     const FrContext *context, GArray **placed);

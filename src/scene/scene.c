@@ -21,6 +21,7 @@ typedef struct Build {
     FrGrowing *growing;
     FrSceneParts *parts; ///< NULL
     FrSampled *sampled;
+    FrHills *hills; ///< NULL: the ground is level
 } Build;
 
 static void clear_plant(void *data) {
@@ -215,6 +216,9 @@ static FrStatus build_first(Build *build) {
         return FR_ERR_DOCUMENT;
     }
     FrStand stand = {.scale = 1};
+    if (build->hills != NULL && !fr_hills_height(build->hills, 0, 0, &stand.at[2])) {
+        stand.at[2] = 0;
+    }
     return stand_plant(build, g_ptr_array_index(plants, 0), -1, &stand);
 }
 
@@ -226,7 +230,7 @@ static FrStatus build_places(Build *build) {
         return build_first(build);
     }
     GArray *placed;
-    FrStatus status = fr_scene_places(document, build->context, &placed);
+    FrStatus status = fr_scene_places(document, build->hills, build->context, &placed);
     for (guint i = 0; status == FR_OK && i < placed->len; i++) {
         status = build_place(build, &g_array_index(placed, FrPlaced, i));
     }
@@ -237,12 +241,10 @@ static FrStatus build_places(Build *build) {
 /// The obstacles, last of plants and stands.
 static FrStatus build_obstacles(Build *build) {
     FrScene *scene = build->scene;
-    if (scene->surroundings->obstacles->len == 0) {
-        return FR_OK;
-    }
     FrScenePlant made = {0};
-    FrStatus status = fr_obstacles_plant(scene->surroundings, build->context, &made.plant);
-    if (status != FR_OK) {
+    FrStatus status =
+        fr_obstacles_plant(scene->surroundings, build->hills, build->context, &made.plant);
+    if (status != FR_OK || made.plant == NULL) {
         return status;
     }
     made.by_component = g_new0(uint64_t, 1);
@@ -310,7 +312,10 @@ static FrStatus build_scene(const FrDocument *document, int64_t seed, double tim
                    .growing = fr_growing_new(steps_at(document, time)),
                    .parts = parts,
                    .sampled = fr_sampled_new()};
-    FrStatus status = build_places(&build);
+    FrStatus status = fr_hills_new(build.scene->surroundings->terrain, context, &build.hills);
+    if (status == FR_OK) {
+        status = build_places(&build);
+    }
     if (status == FR_OK) {
         status = build_obstacles(&build);
     }
@@ -320,6 +325,7 @@ static FrStatus build_scene(const FrDocument *document, int64_t seed, double tim
     if (status == FR_OK) {
         status = fr_growing_run(build.growing, build.scene, context);
     }
+    fr_hills_free(build.hills);
     fr_growing_free(build.growing);
     fr_sampled_free(build.sampled);
     g_hash_table_unref(build.built);

@@ -24,8 +24,8 @@ static bool is_before(const double a[3], const double b[3]) {
     return a[0] < b[0];
 }
 
-/// Whether the line at y, z has the edge on its side of greater y. The corners come in one order for
-/// both triangles of an edge, so the answer has the same bits.
+/// Whether the line at y, z has the edge on its side of greater y. The corners come in one order
+/// for both triangles of an edge, so the answer has the same bits.
 static bool passes_edge(const double a[3], const double b[3], double y, double z) {
     const double *low = is_before(a, b) ? a : b, *high = low == a ? b : a;
     if (!(low[2] <= z && z < high[2])) {
@@ -43,9 +43,9 @@ static void cross_triangle(double corner[3][3], const FrCellGrid *grid, int64_t 
         is_hit ^= passes_edge(corner[k], corner[(k + 1) % 3], at[0], at[1]);
     }
     if (is_hit && normal[0] != 0) {
-        double x = corner[0][0] - (normal[1] * (at[0] - corner[0][1]) +
-                                   normal[2] * (at[1] - corner[0][2])) /
-                                      normal[0];
+        double x =
+            corner[0][0] -
+            (normal[1] * (at[0] - corner[0][1]) + normal[2] * (at[1] - corner[0][2])) / normal[0];
         Crossing crossing = {z * grid->counts[1] + y, x, normal[0] > 0 ? 1 : -1};
         g_array_append_val(crossings, crossing);
     }

@@ -65,8 +65,8 @@ static void turned_cubes(void) {
     for (uint32_t k = 0; k < 20; k++) {
         FrKey key = fr_key_child(fr_key_root(5), k);
         versors turn = fr_rotation_about(
-            glms_vec3_normalize((vec3s){{(float)fr_random_signed(key, 0, 0),
-                                         (float)fr_random_signed(key, 0, 1), 0.3F}}),
+            glms_vec3_normalize((vec3s){
+                {(float)fr_random_signed(key, 0, 0), (float)fr_random_signed(key, 0, 1), 0.3F}}),
             (float)(6 * fr_random(key, 0, 2)));
         vec3s moved[8];
         for (int i = 0; i < 8; i++) {
