@@ -59,6 +59,11 @@ FR_API uint32_t fr_voxels_walk(const FrVoxels *voxels, const double from[3], con
 /// Makes every cell solid that a triangle touches. Parts outside are left out.
 FR_API void fr_voxels_add_triangles(FrVoxels *voxels, const vec3s *positions,
                                     const uint32_t *indices, uint32_t index_count, bool is_ground);
+/// Makes every cell solid whose middle a closed surface of triangles encloses, below `end`. False,
+/// and nothing done, if that took more than about `most` bytes.
+FR_API FR_MUST_USE bool fr_voxels_fill(FrVoxels *voxels, const vec3s *positions,
+                                       const uint32_t *indices, uint32_t index_count,
+                                       bool is_ground, const double end[3], uint64_t most);
 /// Makes all obstacles go, and keeps what is owned.
 FR_API void fr_voxels_clear_solid(FrVoxels *voxels);
 /// Calls `visit` for every brick that has owners, in order of its place.

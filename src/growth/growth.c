@@ -39,12 +39,29 @@ static void drop_species(FrGrowth *growth) {
     g_free(growth->species);
 }
 
-static void take_obstacles(FrGrowth *growth, const FrGrowthSetup *setup) {
+/// Obstacles are solid: their surface, and what it encloses within the arena.
+static FrStatus take_obstacles(FrGrowth *growth, const FrGrowthSetup *setup,
+                               const FrContext *context) {
+    double end[3];
+    for (int axis = 0; axis < 3; axis++) {
+        end[axis] = (double)setup->params.max.raw[axis];
+    }
     for (uint32_t i = 0; i < setup->obstacle_count; i++) {
         const FrGrowthObstacle *obstacle = &setup->obstacles[i];
         fr_voxels_add_triangles(growth->voxels, obstacle->positions, obstacle->indices,
                                 obstacle->index_count, obstacle->is_ground);
+        if (!fr_voxels_fill(growth->voxels, obstacle->positions, obstacle->indices,
+                            obstacle->index_count, obstacle->is_ground, end,
+                            context->limits.bytes)) {
+            fr_diags_add(
+                context->diags, FR_ERROR, "limit-bytes", (FrSpan){0},
+                "an obstacle fills more of the arena than the limit bytes=%" G_GUINT64_FORMAT
+                " allows; make `cell` larger",
+                context->limits.bytes);
+            return FR_ERR_LIMIT;
+        }
     }
+    return FR_OK;
 }
 
 FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context, FrGrowth **growth) {
@@ -62,7 +79,11 @@ FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context, FrG
         origin[axis] = (double)setup->params.min.raw[axis];
     }
     made->voxels = fr_voxels_new(origin, setup->params.cell);
-    take_obstacles(made, setup);
+    status = take_obstacles(made, setup, context);
+    if (status != FR_OK) {
+        fr_growth_free(made);
+        return status;
+    }
     *growth = made;
     return FR_OK;
 }
@@ -97,8 +118,7 @@ FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup, const Fr
     drop_species(growth);
     take_species(growth, setup);
     fr_voxels_clear_solid(growth->voxels);
-    take_obstacles(growth, setup);
-    return FR_OK;
+    return take_obstacles(growth, setup, context);
 }
 
 /// The one bud that a plant begins with.

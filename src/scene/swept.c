@@ -107,9 +107,8 @@ static void turn_stations(Line *line) {
         float half = glms_vec3_dot(right, right_of(in, right));
         line->side[i] = glms_vec3_scale(right, fminf(1 / fmaxf(half, 1e-3F), LONGEST_MITRE));
         line->up[i] = glms_vec3_normalize(glms_vec3_cross(right, between));
-        line->along[i] = i == 0 ? 0
-                                : line->along[i - 1] +
-                                      glms_vec3_distance(line->at[i], line->at[before]);
+        line->along[i] =
+            i == 0 ? 0 : line->along[i - 1] + glms_vec3_distance(line->at[i], line->at[before]);
     }
 }
 
@@ -141,9 +140,8 @@ static void add_mantle(Surface *surface, const Line *line, const Section *sectio
         for (uint32_t k = 0; k < section->count; k++) {
             uint32_t v = surface->vertices++;
             surface->positions[v] = place(line, i, section->at[k]);
-            surface->normals[v] =
-                glms_vec3_add(glms_vec3_scale(side, section->normal[k].x),
-                              glms_vec3_scale(line->up[i], section->normal[k].y));
+            surface->normals[v] = glms_vec3_add(glms_vec3_scale(side, section->normal[k].x),
+                                                glms_vec3_scale(line->up[i], section->normal[k].y));
             surface->uvs[v][0] = section->around[k] / width;
             surface->uvs[v][1] = line->along[i] / width;
         }

@@ -45,13 +45,13 @@ static FrMeshFile *mesh_of_map(const FrTerrain *terrain, const uint32_t points[2
         for (uint32_t column = 0; column < points[0]; column++) {
             uint32_t v = row * points[0] + column;
             double u = (double)column / (points[0] - 1), w = (double)row / (points[1] - 1);
-            positions[v] = (vec3s){{terrain->size.x * (float)(u - 0.5),
-                                    terrain->size.y * (float)(0.5 - w),
-                                    terrain->size.z * height_at(terrain->heights, u, w)}};
+            positions[v] =
+                (vec3s){{terrain->size.x * (float)(u - 0.5), terrain->size.y * (float)(0.5 - w),
+                         terrain->size.z * height_at(terrain->heights, u, w)}};
             uvs[v][0] = (float)u;
             uvs[v][1] = (float)w;
             if (row > 0 && column > 0) {
-                const uint32_t corners[6] = {v, v - points[0], v - points[0] - 1,
+                const uint32_t corners[6] = {v, v - points[0],     v - points[0] - 1,
                                              v, v - points[0] - 1, v - 1};
                 memcpy(&indices[index_count], corners, sizeof corners);
                 index_count += 6;
@@ -72,9 +72,8 @@ static FrStatus make_mesh(FrHills *hills, const FrContext *context) {
     double scale = fmin(1, (double)terrain->points / longer);
     uint32_t points[2] = {MAX((uint32_t)(map->width * scale), 2),
                           MAX((uint32_t)(map->height * scale), 2)};
-    FrStatus status = fr_limit_check(2 * (uint64_t)points[0] * points[1],
-                                     context->limits.triangles, "triangles", "the terrain",
-                                     terrain->span, context->diags);
+    FrStatus status = fr_limit_check(2 * (uint64_t)points[0] * points[1], context->limits.triangles,
+                                     "triangles", "the terrain", terrain->span, context->diags);
     if (status == FR_OK) {
         hills->mesh = mesh_of_map(terrain, points);
     }
@@ -194,14 +193,12 @@ static bool triangle_height(const FrMeshFile *mesh, uint32_t triangle, const dou
             p[k][r] = (double)mesh->positions[mesh->indices[3 * triangle + (uint32_t)k]].raw[r];
         }
     }
-    double area = (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) -
-                  (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);
-    double b = ((at[0] - p[0][0]) * (p[2][1] - p[0][1]) -
-                (p[2][0] - p[0][0]) * (at[1] - p[0][1])) /
-               area;
-    double c = ((p[1][0] - p[0][0]) * (at[1] - p[0][1]) -
-                (at[0] - p[0][0]) * (p[1][1] - p[0][1])) /
-               area;
+    double area =
+        (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);
+    double b =
+        ((at[0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (at[1] - p[0][1])) / area;
+    double c =
+        ((p[1][0] - p[0][0]) * (at[1] - p[0][1]) - (at[0] - p[0][0]) * (p[1][1] - p[0][1])) / area;
     // A little beyond its edges, so that nothing falls between two.
     const double slack = 1e-7;
     if (area == 0 || !(b >= -slack && c >= -slack && b + c <= 1 + slack)) {
@@ -220,7 +217,8 @@ bool fr_hills_height(const FrHills *hills, double x, double y, double *height) {
     for (int k = 0; k < 3; k++) {
         scale[k] = is_mesh ? (double)terrain->size.raw[k] : 1;
     }
-    const double at[2] = {(cosine * dx + sine * dy) / scale[0], (cosine * dy - sine * dx) / scale[1]};
+    const double at[2] = {(cosine * dx + sine * dy) / scale[0],
+                          (cosine * dy - sine * dx) / scale[1]};
     const vec3s min = hills->mesh->min, max = hills->mesh->max;
     if (at[0] < (double)min.x || at[0] > (double)max.x || at[1] < (double)min.y ||
         at[1] > (double)max.y) {

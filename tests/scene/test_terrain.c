@@ -166,7 +166,8 @@ static void test_invisible(void) {
     Built built = build(SCENE("<obstacle visible='no'/><place plant='pole'/>"), -1);
     g_assert_cmpuint(built.scene->obstacles, ==, 0);
     forget(&built);
-    built = build(SCENE("<obstacle visible='no'/><obstacle shape='sweep'>0,0,0 1,1,1</obstacle>"), -1);
+    built =
+        build(SCENE("<obstacle visible='no'/><obstacle shape='sweep'>0,0,0 1,1,1</obstacle>"), -1);
     g_assert_cmpuint(built.scene->obstacles, ==, 1);
     g_assert_cmpuint(plant_at(&built, 1)->plant->organs.count, ==, 1);
     forget(&built);

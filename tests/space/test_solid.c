@@ -2,6 +2,7 @@
 #include "frond/distance.h"
 #include "frond/random.h"
 #include "frond/solid.h"
+#include "frond/voxels.h"
 
 #include <cglm/struct.h>
 #include <glib.h>
@@ -128,6 +129,28 @@ static void open_surfaces(void) {
     g_free(cells);
 }
 
+/// The same cells, in bricks.
+static void filled_voxels(void) {
+    vec3s moved[8];
+    versors turn = fr_rotation_about(glms_vec3_normalize((vec3s){{1, 2, 3}}), 0.7F);
+    for (int i = 0; i < 8; i++) {
+        moved[i] = glms_quat_rotatev(turn, cube[i]);
+    }
+    Cells *cells = fill(moved, sides, 36);
+    FrVoxels *voxels = fr_voxels_new(grid.origin, grid.cell);
+    const double end[3] = {2, 2, 2};
+    g_assert_false(fr_voxels_fill(voxels, moved, sides, 36, false, end, 0));
+    g_assert_true(fr_voxels_fill(voxels, moved, sides, 36, false, end, 1 << 20));
+    for (int i = 0; i < SIDE * SIDE * SIDE; i++) {
+        int x = i % SIDE, y = i / SIDE % SIDE, z = i / SIDE / SIDE;
+        FrCell cell = {{(int16_t)x, (int16_t)y, (int16_t)z}};
+        g_assert_true(cells->is_inside[z][y][x] ==
+                      (fr_voxels_owner(voxels, cell) == FR_VOXEL_SOLID));
+    }
+    fr_voxels_free(voxels);
+    g_free(cells);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/space/solid/a cube has the cells of its volume", cube_cells);
@@ -136,5 +159,6 @@ int main(int argc, char **argv) {
     g_test_add_func("/space/solid/overlapping solids are one, whichever way they turn",
                     union_cells);
     g_test_add_func("/space/solid/open and flat surfaces enclose nothing", open_surfaces);
+    g_test_add_func("/space/solid/voxels are filled with the same cells", filled_voxels);
     return g_test_run();
 }
