@@ -10,7 +10,8 @@
 typedef struct FrScenePlant {
     FrPlant *plant;
     uint64_t instances;
-    uint64_t *by_component; ///< instances by component, as many as plant->components has
+    uint64_t *by_component; ///< instances by component, as many as plant->components has; of an
+                            ///< L-system internodes and organs by the production they come from
     uint64_t modules;       ///< of the string, if an L-system made it
     FrLdrawn drawn;         ///< by its turtle
 } FrScenePlant;

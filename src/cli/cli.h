@@ -67,7 +67,8 @@ struct CliSession {
     const CliVerb *verb;
     const CliOptions *options;
     FrContext context;
-    double began; ///< seconds of the monotonic clock
+    FrSource *unwritten; ///< the document that an L-system was read as; what it says has no place
+    double began;        ///< seconds of the monotonic clock
     double read_seconds, build_seconds, render_seconds;
 };
 
@@ -121,6 +122,8 @@ void cli_progress_free(FrProgress *progress);
 
 /// What a turtle drew, as an object.
 json_t *cli_drawn_json(const FrLdrawn *drawn);
+/// Adds how much each component of a plant made to an object of numbers by their ids.
+void cli_count_made(json_t *object, const FrPlant *plant, const uint64_t *made);
 /// Writes --stats. `io` is NULL where no model was written.
 FR_MUST_USE FrStatus cli_stats_write(CliSession *session, const char *document,
                                      const FrScene *scene, const FrIoStats *io);
@@ -151,6 +154,9 @@ bool cli_is_lsystem(const char *path);
 FR_MUST_USE FrStatus cli_lsystem_read(CliSession *session, const char *path, FrDocument **document);
 /// Whether cli_lsystem_read() has seen to a --set.
 bool cli_lsystem_takes(const char *path, const char *set);
+/// Sets the derivation length of every L-system of a document.
+FR_MUST_USE FrStatus cli_lsystem_set_steps(CliSession *session, FrDocument *document,
+                                           int64_t steps);
 /// Does what --steps, --view ask of the L-systems of a document, and lets them print.
 FR_MUST_USE FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document);
 /// The L-system that --plant names, else the first; NULL with a message.

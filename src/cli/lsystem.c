@@ -1,12 +1,36 @@
 /// L-systems as input. A .l file is read as a document of one plant, with the .v view beside it or
-/// the one that --view names.
+/// the one that --view names; so is a file of another name that looks like an L-system.
 #include "cli/cli.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/// Whether a file begins with no tag and has a production or a keyword soon after.
+static bool looks_like_one(const char *path) {
+    char text[4096];
+    FILE *file = g_file_test(path, G_FILE_TEST_IS_REGULAR) ? fopen(path, "rb") : NULL;
+    if (file == NULL) {
+        return false;
+    }
+    size_t size = fread(text, 1, sizeof text - 1, file);
+    fclose(file);
+    text[size] = '\0';
+    size_t begin = strspn(text, " \t\r\n\xEF\xBB\xBF");
+    static const char *const marks[] = {"->", "\xe2\x86\x92", "Lsystem", "lsystem", "axiom"};
+    bool is_marked = false;
+    for (size_t i = 0; i < G_N_ELEMENTS(marks); i++) {
+        is_marked |= strstr(text + begin, marks[i]) != NULL;
+    }
+    return is_marked && text[begin] != '<';
+}
+
 bool cli_is_lsystem(const char *path) {
-    return g_str_has_suffix(path, ".l") || g_str_has_suffix(path, ".L");
+    if (g_str_has_suffix(path, ".l") || g_str_has_suffix(path, ".L")) {
+        return true;
+    }
+    return !g_str_has_suffix(path, ".frond") && !g_str_has_suffix(path, ".xml") &&
+           !cli_is_model(path) && looks_like_one(path);
 }
 
 static void print_text(void *user, const char *text) {
@@ -43,17 +67,12 @@ static char *document_text(const CliSession *session, const char *path) {
     return g_string_free(text, FALSE);
 }
 
-/// What is said of the document that nobody wrote has no place.
-static void pass_on(const FrDiags *from, const FrSource *unwritten, FrDiags *to) {
-    for (size_t i = 0; i < fr_diags_count(from); i++) {
-        const FrDiag *diag = fr_diags_get(from, i);
-        FrSpan span = diag->span.source == unwritten ? (FrSpan){0} : diag->span;
-        fr_diags_add(to, diag->severity, diag->code, span, "%s", diag->text);
-    }
-}
-
 FrStatus cli_lsystem_read(CliSession *session, const char *path, FrDocument **document) {
     *document = NULL;
+    if (!isnan(session->options->time)) {
+        cli_message("--time is for components, which have clocks; L-systems have --steps");
+        return FR_ERR_USAGE;
+    }
     FrStatus status;
     FrSource *file = fr_source_load(path, session->options->limits.document_bytes,
                                     session->context.diags, &status);
@@ -63,12 +82,9 @@ FrStatus cli_lsystem_read(CliSession *session, const char *path, FrDocument **do
     fr_source_unref(file);
     char *text = document_text(session, path), *folder = g_path_get_dirname(path);
     FrSource *source = fr_source_new(path, text, strlen(text));
-    FrContext inner = session->context;
-    inner.diags = fr_diags_new();
-    status = fr_document_parse(source, folder, &inner, document);
-    pass_on(inner.diags, source, session->context.diags);
-    fr_diags_free(inner.diags);
-    fr_source_unref(source);
+    status = fr_document_parse(source, folder, &session->context, document);
+    fr_source_unref(session->unwritten);
+    session->unwritten = source;
     g_free(folder);
     g_free(text);
     return status;
@@ -99,6 +115,24 @@ static FrStatus set_all(CliSession *session, FrDocument *document, const char *a
     return status;
 }
 
+/// Lets the L-systems of a document print on standard error.
+static void let_print(const FrDocument *document) {
+    for (guint i = 0; i < fr_document_plants(document)->len; i++) {
+        const FrPlantDef *plant = g_ptr_array_index(fr_document_plants(document), i);
+        if (plant->kind == FR_PLANT_LSYSTEM) {
+            fr_lmodel_set_print(plant->lsystem, print_text, NULL);
+        }
+    }
+}
+
+FrStatus cli_lsystem_set_steps(CliSession *session, FrDocument *document, int64_t steps) {
+    char *text = g_strdup_printf("%" G_GINT64_FORMAT, steps);
+    FrStatus status = set_all(session, document, "steps", text);
+    g_free(text);
+    let_print(document);
+    return status;
+}
+
 FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document) {
     const CliOptions *options = session->options;
     FrStatus status = FR_OK;
@@ -108,15 +142,10 @@ FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document) {
         g_free(path);
     }
     if (options->steps >= 0 && status == FR_OK) {
-        char *steps = g_strdup_printf("%" G_GINT64_FORMAT, options->steps);
-        status = set_all(session, document, "steps", steps);
-        g_free(steps);
+        status = cli_lsystem_set_steps(session, document, options->steps);
     }
-    for (guint i = 0; i < fr_document_plants(document)->len && status == FR_OK; i++) {
-        const FrPlantDef *plant = g_ptr_array_index(fr_document_plants(document), i);
-        if (plant->kind == FR_PLANT_LSYSTEM) {
-            fr_lmodel_set_print(plant->lsystem, print_text, NULL);
-        }
+    if (status == FR_OK) {
+        let_print(document);
     }
     return status;
 }
@@ -126,7 +155,10 @@ void cli_lsystem_name(const char *path, FrScene *scene) {
         FrPlant *plant = g_array_index(scene->plants, FrScenePlant, i).plant;
         g_free(plant->name);
         plant->name = g_path_get_basename(path);
-        plant->name[strlen(plant->name) - 2] = '\0';
+        char *dot = strrchr(plant->name, '.');
+        if (dot != NULL && dot > plant->name) {
+            *dot = '\0';
+        }
     }
 }
 

@@ -47,25 +47,27 @@ void cli_session_close(CliSession *session) {
     session->context.progress = NULL;
     cli_session_flush(session);
     fr_diags_free(session->context.diags);
+    fr_source_unref(session->unwritten);
     fr_pool_free(session->context.pool);
 }
 
-/// Errors only, for -q.
-static FrDiags *errors_of(const FrDiags *diags) {
-    FrDiags *errors = fr_diags_new();
+/// What is told: with -q errors only, and never a place in a document that nobody wrote.
+static FrDiags *told_of(const CliSession *session) {
+    const FrDiags *diags = session->context.diags;
+    FrDiags *told = fr_diags_new();
     for (size_t i = 0; i < fr_diags_count(diags); i++) {
         const FrDiag *diag = fr_diags_get(diags, i);
-        if (diag->severity == FR_ERROR) {
-            fr_diags_add(errors, FR_ERROR, diag->code, diag->span, "%s", diag->text);
+        bool is_placed = session->unwritten == NULL || diag->span.source != session->unwritten;
+        if (diag->severity == FR_ERROR || !session->options->is_quiet) {
+            fr_diags_add(told, diag->severity, diag->code, is_placed ? diag->span : (FrSpan){0},
+                         "%s", diag->text);
         }
     }
-    return errors;
+    return told;
 }
 
 void cli_session_flush(CliSession *session) {
-    FrDiags *all = session->context.diags;
-    FrDiags *shown = session->options->is_quiet ? errors_of(all) : NULL;
-    const FrDiags *printed = shown == NULL ? all : shown;
+    FrDiags *printed = told_of(session);
     GString *text = g_string_new(NULL);
     if (session->options->is_diag_json) {
         fr_diags_print_json(printed, text);
@@ -79,8 +81,8 @@ void cli_session_flush(CliSession *session) {
         fwrite(text->str, 1, text->len, stderr);
     }
     g_string_free(text, TRUE);
-    fr_diags_free(shown);
-    fr_diags_free(all);
+    fr_diags_free(printed);
+    fr_diags_free(session->context.diags);
     session->context.diags = fr_diags_new();
 }
 

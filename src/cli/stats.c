@@ -9,17 +9,22 @@
 /// Counts of a scene, each plant as often as it stands there.
 typedef struct Totals {
     uint64_t instances, modules, plants, axes, nodes, organs, shapes;
-    json_t *by_component;
+    json_t *by_component, *by_production;
 } Totals;
 
-static void add_component(json_t *object, const char *id, uint64_t count) {
-    json_int_t before = json_integer_value(json_object_get(object, id));
-    json_object_set_new(object, id, json_integer(before + (json_int_t)count));
+void cli_count_made(json_t *object, const FrPlant *plant, const uint64_t *made) {
+    for (guint c = 0; c < plant->components->len; c++) {
+        char *id = g_utf8_make_valid(g_array_index(plant->components, FrComponent, c).id, -1);
+        json_int_t before = json_integer_value(json_object_get(object, id));
+        json_object_set_new(object, id, json_integer(before + (json_int_t)made[c]));
+        g_free(id);
+    }
 }
 
 static Totals count_scene(const FrScene *scene) {
     guint stands = scene->stands->len - scene->obstacles;
-    Totals totals = {.plants = stands, .by_component = json_object()};
+    Totals totals = {
+        .plants = stands, .by_component = json_object(), .by_production = json_object()};
     for (guint i = 0; i < stands; i++) {
         uint32_t index = g_array_index(scene->stands, FrStand, i).plant;
         const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, index);
@@ -29,11 +34,8 @@ static Totals count_scene(const FrScene *scene) {
         totals.axes += plant->axes.count;
         totals.nodes += plant->nodes.count;
         totals.organs += plant->organs.count;
-        // The components of an L-system are none of the document's.
-        for (guint c = 0; c < plant->components->len && built->modules == 0; c++) {
-            add_component(totals.by_component, g_array_index(plant->components, FrComponent, c).id,
-                          built->by_component[c]);
-        }
+        cli_count_made(built->modules > 0 ? totals.by_production : totals.by_component, plant,
+                       built->by_component);
     }
     for (guint i = 0; i < scene->plants->len - scene->obstacles; i++) {
         totals.shapes += g_array_index(scene->plants, FrScenePlant, i).plant->shapes->len;
@@ -140,9 +142,11 @@ static json_t *make_stats(const CliSession *session, const char *document, const
     }
     if (totals.modules > 0) {
         set_count(stats, "modules", totals.modules);
+        json_object_set(stats, "by_production", totals.by_production);
         json_object_set_new(stats, "drawn", drawn_of(scene));
     }
     json_decref(totals.by_component);
+    json_decref(totals.by_production);
     set_count(stats, "plants", totals.plants);
     set_count(stats, "axes", totals.axes);
     set_count(stats, "nodes", totals.nodes);

@@ -13,12 +13,14 @@ typedef struct Grown {
     CliChains *chains;
     uint64_t seed, modules;
     FrLdrawn drawn;
+    uint64_t *made; ///< by an L-system's productions
 } Grown;
 
 static void clear_grown(Grown *grown) {
     fr_plant_free(grown->plant);
     fr_pgraph_counts_clear(&grown->counts);
     g_free(grown->chains);
+    g_free(grown->made);
 }
 
 static FrStatus grow(const CliSession *session, const FrDocument *document,
@@ -34,7 +36,7 @@ static FrStatus grow(const CliSession *session, const FrDocument *document,
     grown->plant = plant.plant;
     grown->modules = plant.modules;
     grown->drawn = plant.drawn;
-    g_free(plant.by_component);
+    grown->made = plant.by_component;
     if (grown->counts.parent == &wanted) {
         grown->counts.parent = NULL;
     }
@@ -114,6 +116,16 @@ static void print_drawn(const FrLdrawn *drawn) {
     g_free(segments);
 }
 
+static void print_productions(const Grown *grown) {
+    const GArray *components = grown->plant->components;
+    printf("  %-31s %12s\n", "production", "drawn");
+    for (guint i = 0; i < components->len; i++) {
+        char *count = cli_count_text(grown->made[i]);
+        printf("  %-31s %12s\n", g_array_index(components, FrComponent, i).id, count);
+        g_free(count);
+    }
+}
+
 // What an edit does: its attributes that are not neutral, as documents write them.
 static char *edit_text(const FrEditParams *edit) {
     GString *text = g_string_new(NULL);
@@ -178,6 +190,7 @@ static void print_plant(const Grown *grown) {
     g_free(organs);
     if (is_lsystem) {
         print_drawn(&grown->drawn);
+        print_productions(grown);
     } else {
         print_components(grown);
         print_edits(grown);
@@ -215,6 +228,9 @@ static json_t *plant_json(const Grown *grown) {
     if (grown->definition->kind == FR_PLANT_LSYSTEM) {
         json_object_set_new(plant, "modules", json_integer((json_int_t)grown->modules));
         json_object_set_new(plant, "drawn", cli_drawn_json(&grown->drawn));
+        json_t *productions = json_object();
+        cli_count_made(productions, grown->plant, grown->made);
+        json_object_set_new(plant, "productions", productions);
     } else {
         json_object_set_new(plant, "instances", json_integer((json_int_t)grown->counts.instances));
         json_object_set_new(plant, "components", components_json(grown));

@@ -113,7 +113,8 @@ static void tell_once(CliSession *session, FrDiags *all) {
     session->context.diags = all;
 }
 
-static FrStatus build_frame(CliSession *session, const FrDocument *document, int64_t frame,
+/// A frame of a document is a time, that of an L-system a step of its derivation.
+static FrStatus build_frame(CliSession *session, FrDocument *document, int64_t frame,
                             FrScene **scene) {
     const CliOptions *options = session->options;
     double began = cli_now();
@@ -121,15 +122,21 @@ static FrStatus build_frame(CliSession *session, const FrDocument *document, int
     double time = start + (double)frame * fr_document_scene(document)->frame_time;
     FrDiags *all = session->context.diags;
     session->context.diags = fr_diags_new();
-    FrStatus status = fr_scene_build_at(document, options->seed, time, &session->context, scene);
+    FrStatus status = FR_OK;
+    if (cli_is_lsystem(g_ptr_array_index(options->files, 0))) {
+        status = cli_lsystem_set_steps(session, document, frame);
+        time = NAN;
+    }
+    if (status == FR_OK) {
+        status = fr_scene_build_at(document, options->seed, time, &session->context, scene);
+    }
     tell_once(session, all);
     session->build_seconds += cli_now() - began;
     return status;
 }
 
 /// All pictures show what the last and the first hold, so that a plant is seen to grow.
-static FrStatus frame_all(CliSession *session, const FrDocument *document, double min[3],
-                          double max[3]) {
+static FrStatus frame_all(CliSession *session, FrDocument *document, double min[3], double max[3]) {
     const CliOptions *options = session->options;
     const int64_t ends[2] = {options->last_frame, options->first_frame};
     for (int k = 0; k < 2; k++) {
@@ -150,7 +157,7 @@ static FrStatus frame_all(CliSession *session, const FrDocument *document, doubl
     return FR_OK;
 }
 
-static FrStatus render_frames(CliSession *session, const FrDocument *document) {
+static FrStatus render_frames(CliSession *session, FrDocument *document) {
     const CliOptions *options = session->options;
     double min[3], max[3];
     FrStatus status = frame_all(session, document, min, max);
@@ -178,10 +185,6 @@ static FrStatus render_frames(CliSession *session, const FrDocument *document) {
 
 static FrStatus render_sequence(CliSession *session) {
     const char *path = g_ptr_array_index(session->options->files, 0);
-    if (cli_is_lsystem(path)) {
-        cli_message("--frames is for documents; the steps of an L-system are chosen by --steps");
-        return FR_ERR_USAGE;
-    }
     FrDocument *document;
     FrStatus status = cli_session_read(session, path, &document);
     if (status == FR_OK) {

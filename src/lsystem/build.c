@@ -7,8 +7,11 @@
 
 #include <math.h>
 
-// Rows are appended to the plant by so many at once.
-#define BLOCK 4096
+// Rows are appended to the plant by so many at once: few enough to be in the nearest cache still
+// when they are written.
+#define BLOCK 256
+// One group in so many is counted to estimate how much room a string needs.
+#define SAMPLED 8
 // Squared length of a line that is too short to be drawn.
 #define NO_LINE 1e-5
 #define GRAIN 8192
@@ -36,8 +39,10 @@ FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *co
     builder->context = context;
     builder->view = derivation->view;
     builder->status = FR_OK;
-    builder->segment_component = fr_plant_add_component(builder->plant, "F", (FrSpan){0});
-    builder->organ_component = fr_plant_add_component(builder->plant, "organs", (FrSpan){0});
+    builder->derivation = derivation;
+    size_t makers = derivation->system->productions->len + 1;
+    builder->components = g_new(uint32_t, makers);
+    memset(builder->components, 0xFF, makers * sizeof *builder->components);
     const FrLsettings *settings = &derivation->settings;
     builder->wood = add_material(builder->plant, settings->axes, settings->inherits, "wood",
                                  (vec3s){{0.42F, 0.33F, 0.24F}}, 0);
@@ -61,6 +66,7 @@ void fr_lbuilder_free(FrLbuilder *builder) {
     if (builder != NULL) {
         fr_plant_free(builder->plant);
         g_free(builder->colours);
+        g_free(builder->components);
         g_free(builder);
     }
 }
@@ -87,6 +93,7 @@ static void scale_units(FrPlant *plant, float unit) {
     for (uint32_t i = 0; i < plant->nodes.count; i++) {
         plant->nodes.length[i] *= unit;
         plant->nodes.radius[i] *= unit;
+        plant->nodes.position[i] = glms_vec3_scale(plant->nodes.position[i], unit);
     }
     for (uint32_t i = 0; i < plant->axes.count; i++) {
         plant->axes.base_radius[i] *= unit;
@@ -172,60 +179,61 @@ static Count count_abreast(const uint32_t *words, const uint64_t begin[CHAINS],
     return count;
 }
 
-/// Counts a range of groups of parts of a string.
-typedef struct Counting {
-    const FrLstring *string;
-    Count *groups;
-} Counting;
-
-static void count_groups(void *data, size_t first, size_t last, int worker) {
-    (void)worker;
-    const Counting *counting = data;
-    const FrLstring *string = counting->string;
-    const GArray *marks = string->marks;
-    for (size_t group = first; group < last; group++) {
-        uint64_t begin[CHAINS], end[CHAINS];
-        for (size_t c = 0; c < CHAINS; c++) {
-            size_t i = group * CHAINS + c;
-            bool is_there = i < marks->len, is_last = i + 1 >= marks->len;
-            begin[c] = is_there ? g_array_index(marks, FrLmark, i).word : string->count;
-            end[c] = is_last ? string->count : g_array_index(marks, FrLmark, i + 1).word;
-        }
-        counting->groups[group] = count_abreast(string->words, begin, end);
+/// Counts a group of parts that is not the last of the string.
+static Count count_group(const FrLstring *string, size_t group) {
+    uint64_t begin[CHAINS], end[CHAINS];
+    for (size_t c = 0; c < CHAINS; c++) {
+        begin[c] = g_array_index(string->marks, FrLmark, group * CHAINS + c).word;
+        end[c] = g_array_index(string->marks, FrLmark, group * CHAINS + c + 1).word;
     }
+    return count_abreast(string->words, begin, end);
 }
 
 void fr_lbuilder_reserve(FrLbuilder *builder, const FrLstring *string) {
-    size_t groups = (string->marks->len + CHAINS - 1) / CHAINS;
-    Counting counting = {string, g_new0(Count, groups + 1)};
-    fr_parallel_for(builder->context->pool, groups, 8, count_groups, &counting, NULL);
+    const GArray *marks = string->marks;
+    size_t groups = (marks->len + CHAINS - 1) / CHAINS;
+    if (groups < 2 * SAMPLED) {
+        return; // small plants grow as they are
+    }
     Count count = {0, 0};
-    for (size_t i = 0; i < groups; i++) {
-        count.segments += counting.groups[i].segments;
-        count.brackets += counting.groups[i].brackets;
+    uint64_t seen = 0;
+    for (size_t i = 0; i < groups - 1; i += SAMPLED) {
+        Count more = count_group(string, i);
+        count.segments += more.segments;
+        count.brackets += more.brackets;
+        seen += g_array_index(marks, FrLmark, (i + 1) * CHAINS).word -
+                g_array_index(marks, FrLmark, i * CHAINS).word;
     }
-    g_free(counting.groups);
-    uint64_t most = MIN(builder->context->limits.nodes, UINT32_MAX / 2);
-    uint64_t nodes = MIN(count.segments, most);
-    if (nodes > BLOCK) {
-        fr_plant_reserve(builder->plant, (uint32_t)nodes + BLOCK,
-                         (uint32_t)MIN(count.brackets + 1, nodes) + BLOCK);
-    }
+    // A little more than the sample lets expect; where that is not enough, there is room made
+    // later.
+    double scale = 1.02 * (double)string->count / (double)seen;
+    double most = (double)MIN(builder->context->limits.nodes, UINT32_MAX / 2);
+    double nodes = MIN((double)count.segments * scale, most);
+    double axes = MIN((double)count.brackets * scale, nodes);
+    fr_plant_reserve(builder->plant, (uint32_t)nodes + BLOCK, (uint32_t)axes + BLOCK);
+}
+
+FrStatus fr_lbuilder_limit(const FrLbuilder *builder, uint64_t wanted, uint64_t limit,
+                           const char *limit_name, const char *what) {
+    return fr_lderive_limit(builder->derivation, wanted, limit, limit_name,
+                            fr_lderive_maker(builder->derivation, builder->maker), what,
+                            builder->module, builder->context);
 }
 
 // ---- while the turtle walks -------------------------------------------------------------------
 
 /// Room for one more node; false after a failure.
-static bool grow_nodes(FrLbuilder *builder) {
-    FrStatus status =
-        fr_limit_check(builder->nodes + UINT64_C(1), builder->context->limits.nodes, "nodes",
-                       "the segments of the string", (FrSpan){0}, builder->context->diags);
+static bool grow_nodes(FrLbuilder *builder, const FrLsegment *segment) {
+    builder->maker = segment->maker;
+    builder->module = segment->module;
+    uint64_t most = MIN(builder->context->limits.nodes, FR_NONE - UINT64_C(1));
+    FrStatus status = fr_lbuilder_limit(builder, builder->nodes + UINT64_C(1), most, "nodes",
+                                        "the segments of the string");
     if (status != FR_OK) {
         builder->status = status;
         return false;
     }
-    uint64_t most = builder->context->limits.nodes - builder->nodes;
-    fr_plant_append_nodes(builder->plant, (uint32_t)MIN(most, BLOCK));
+    fr_plant_append_nodes(builder->plant, (uint32_t)MIN(most - builder->nodes, BLOCK));
     return true;
 }
 
@@ -235,51 +243,52 @@ static uint32_t painted(FrLbuilder *builder, int32_t colour, uint32_t otherwise)
     return material == NULL ? otherwise : fr_plant_add_material(builder->plant, material);
 }
 
-/// Begins an axis where the segment starts; its offset is in the plant's coordinates until the end.
-static uint32_t begin_axis(FrLbuilder *builder, const FrLstand *stand, const FrLsegment *segment) {
+/// What made something: the production whose successor its module was in, or the axiom.
+static uint32_t component_of(FrLbuilder *builder, uint32_t maker) {
+    const FrLproduction *production = fr_lderive_maker(builder->derivation, maker);
+    maker = production == NULL ? 0 : maker;
+    if (builder->components[maker] == FR_NONE) {
+        const FrLunit *unit = g_ptr_array_index(builder->derivation->system->units, 0);
+        builder->components[maker] =
+            fr_plant_add_component(builder->plant, production == NULL ? "axiom" : production->name,
+                                   production == NULL ? unit->axiom_span : production->span);
+    }
+    return builder->components[maker];
+}
+
+/// Begins an axis with the node made last, where the segment starts; its offset is in the plant's
+/// coordinates until the end.
+static uint32_t begin_axis(FrLbuilder *builder, FrLstand stand, const FrLsegment *segment) {
     FrPlant *plant = builder->plant;
     FrAxes *axes = &plant->axes;
     if (builder->axes == axes->count) {
-        fr_plant_append_axes(plant, BLOCK);
+        fr_plant_append_axes(plant, BLOCK); // there are never more than nodes
     }
-    uint32_t axis = builder->axes++;
+    uint32_t axis = builder->axes++, node = fr_lstand_node(stand);
     vec3s start = fr_lturtle_world(segment->start);
-    axes->bearer[axis] = stand->node;
-    if (stand->node == FR_NONE) {
+    if (node == FR_NONE) {
         axes->offset[axis] = start;
     } else {
-        uint16_t order = axes->order[plant->nodes.axis[stand->node]];
+        uint16_t order = axes->order[plant->nodes.axis[node]];
         axes->order[axis] = (uint16_t)(order + (order < UINT16_MAX));
-        if (!stand->is_at_tip) {
-            axes->offset[axis] = glms_vec3_sub(start, plant->nodes.position[stand->node]);
+        if ((stand & FR_LSTAND_TIP) == 0) {
+            axes->offset[axis] = glms_vec3_sub(start, plant->nodes.position[node]);
         }
     }
+    axes->first[axis] = builder->nodes - 1;
+    axes->bearer[axis] = node;
     axes->base_radius[axis] = segment->start_width / 2;
-    axes->component[axis] = builder->segment_component;
+    axes->component[axis] = component_of(builder, segment->maker);
     axes->material[axis] = painted(builder, segment->colour, builder->wood);
     axes->path[axis] = fr_key_child(fr_key_root(0), segment->module);
     return axis;
 }
 
-static inline double square_of(const FrLsegment *segment) {
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        double d = segment->end[k] - segment->start[k];
-        square += d * d;
-    }
-    return square;
-}
-
-static inline void count_line(FrLbuilder *builder, double square, double length, bool is_seen) {
-    if (square > NO_LINE && is_seen) {
-        builder->drawn.segments++;
-        builder->drawn.length += length;
-    }
-}
-
 void fr_lbuilder_count(FrLbuilder *builder, const FrLsegment *segment) {
-    double square = square_of(segment);
-    count_line(builder, square, sqrt(square), segment->end_width > 0);
+    if (segment->length * segment->length > NO_LINE && segment->end_width > 0) {
+        builder->drawn.segments++;
+        builder->drawn.length += segment->length;
+    }
 }
 
 /// Whether an axis has the colour of a segment; another begins another axis.
@@ -288,45 +297,38 @@ static inline bool is_coloured(FrLbuilder *builder, uint32_t axis, const FrLsegm
            builder->plant->axes.material[axis] == painted(builder, segment->colour, builder->wood);
 }
 
-/// Appends an internode of that length, unless it has none.
-static inline void add_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment,
-                            double length) {
-    if (!(length > 0) || (builder->nodes == builder->plant->nodes.count && !grow_nodes(builder))) {
+/// Unless it has no length.
+void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment) {
+    if (!(segment->length > 0) ||
+        (builder->nodes == builder->plant->nodes.count && !grow_nodes(builder, segment))) {
         return;
     }
     FrNodes *nodes = &builder->plant->nodes;
-    FrAxes *axes = &builder->plant->axes;
-    uint32_t node = builder->nodes++, parent = stand->node, axis;
-    if (parent != FR_NONE && stand->is_at_tip && !stand->is_lateral &&
+    uint32_t node = builder->nodes++, parent = fr_lstand_node(*stand), axis;
+    if (parent != FR_NONE && (*stand & ~FR_LSTAND_NODE) == FR_LSTAND_TIP &&
         nodes->next[parent] == FR_NONE && is_coloured(builder, nodes->axis[parent], segment)) {
         axis = nodes->axis[parent];
         nodes->next[parent] = node;
     } else {
-        axis = begin_axis(builder, stand, segment);
-        axes->first[axis] = node;
+        axis = begin_axis(builder, *stand, segment);
     }
-    axes->last[axis] = node;
+    builder->plant->axes.last[axis] = node;
     nodes->parent[node] = parent;
     nodes->axis[node] = axis;
     nodes->position[node] = fr_lturtle_world(segment->end);
-    nodes->length[node] = (float)length;
+    nodes->length[node] = (float)segment->length;
     nodes->radius[node] = segment->end_width / 2;
     vec3s heading = fr_lturtle_world(segment->heading), left = fr_lturtle_world(segment->left);
     float sign = segment->is_backward ? -1 : 1;
     // Heading and left wait in the columns that their frame will take.
     nodes->frame[node] = (versors){{sign * heading.x, sign * heading.y, sign * heading.z, left.x}};
     nodes->rotation[node] = (versors){{left.y, left.z, 0, 1}};
-    *stand = (FrLstand){node, true, false};
-}
-
-void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment) {
-    add_node(builder, stand, segment, sqrt(square_of(segment)));
+    *stand = node | FR_LSTAND_TIP;
 }
 
 void fr_lbuilder_segment(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment) {
-    double square = square_of(segment), length = sqrt(square);
-    count_line(builder, square, length, segment->end_width > 0);
-    add_node(builder, stand, segment, length);
+    fr_lbuilder_count(builder, segment);
+    fr_lbuilder_node(builder, stand, segment);
 }
 
 uint32_t fr_lbuilder_material(FrLbuilder *builder, const FrLpose *pose, uint32_t plain) {
@@ -339,13 +341,13 @@ void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at
                        double scale, uint32_t material) {
     FrPlant *plant = builder->plant;
     FrStatus status =
-        fr_limit_check(plant->organs.count + UINT64_C(1), builder->context->limits.organs, "organs",
-                       "the organs of the string", (FrSpan){0}, builder->context->diags);
+        fr_lbuilder_limit(builder, plant->organs.count + UINT64_C(1),
+                          builder->context->limits.organs, "organs", "the organs of the string");
     if (status != FR_OK || !(scale > 1e-9) || !isfinite(scale)) {
         builder->status = MAX(builder->status, status);
         return;
     }
-    uint32_t organ = fr_plant_append_organs(plant, 1), node = pose->stand.node;
+    uint32_t organ = fr_plant_append_organs(plant, 1), node = fr_lstand_node(pose->stand);
     vec3s offset = fr_lturtle_world(at);
     FrOrgans *organs = &plant->organs;
     organs->node[organ] = node;
@@ -355,7 +357,7 @@ void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at
     organs->scale[organ] = (float)MIN(scale, 1e9);
     organs->shape[organ] = shape;
     organs->material[organ] = material;
-    organs->component[organ] = builder->organ_component;
+    organs->component[organ] = component_of(builder, builder->maker);
     organs->path[organ] = fr_key_child(fr_key_root(1), organ);
 }
 
@@ -365,8 +367,7 @@ void fr_lbuilder_site(FrLbuilder *builder, const FrLpose *pose, char symbol, dou
     // What is placed has its own unit, whatever that of the file is.
     fr_lbuilder_organ(builder, pose, pose->position, FR_NONE, scale / builder->unit, FR_NONE);
     if (builder->plant->organs.count > before) {
-        builder->plant->organs.component[before] =
-            builder->organ_component + 1 + (uint32_t)(site - builder->sites);
+        builder->plant->organs.component[before] = (uint32_t)(site - builder->sites);
     }
 }
 
@@ -432,7 +433,6 @@ FrPlant *fr_lbuilder_end(FrLbuilder *builder) {
     if (builder->unit != 1) {
         scale_units(plant, (float)builder->unit);
     }
-    fr_plant_update_frames(plant, 0);
     builder->plant = NULL;
     return plant;
 }

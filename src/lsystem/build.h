@@ -11,9 +11,12 @@ struct FrLbuilder {
     FrLdrawn drawn;
     FrStatus status;
     uint32_t nodes, axes; ///< in use; the plant has some more
-    uint32_t segment_component, organ_component;
-    uint32_t wood, leaf; ///< materials
-    uint32_t *colours;   ///< materials of the colours from 1
+    const FrLderivation *derivation;
+    uint32_t *components; ///< by the mark of a head: component of the plant, FR_NONE: none so far
+    uint32_t maker;       ///< mark of the module at work
+    uint64_t module;      ///< its index in the string
+    uint32_t wood, leaf;  ///< materials
+    uint32_t *colours;    ///< materials of the colours from 1
     uint32_t colour_count;
     FrMaterial *const *palette; ///< by colour index, NULL
     double unit;                ///< metres of one unit of the file
@@ -21,7 +24,10 @@ struct FrLbuilder {
 };
 
 FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *context);
-/// Room for what the symbols of a string draw, if nothing replaces them.
+/// fr_limit_check() for what the module at work asks for.
+FR_MUST_USE FrStatus fr_lbuilder_limit(const FrLbuilder *builder, uint64_t wanted, uint64_t limit,
+                                       const char *limit_name, const char *what);
+/// Room for about what the symbols of a string draw, if nothing replaces them.
 void fr_lbuilder_reserve(FrLbuilder *builder, const FrLstring *string);
 /// Ends the plant: what was kept in the plant's coordinates becomes relative to its bearers.
 FrPlant *fr_lbuilder_end(FrLbuilder *builder);

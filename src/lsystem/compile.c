@@ -149,7 +149,8 @@ static FrStatus parse(FrLsystem *system, const FrLoptions *options, const FrCont
                         .values = options->values,
                         .value_count = options->value_count,
                         .is_used = g_new0(bool, options->value_count + 1),
-                        .is_round = options->round_brackets};
+                        .is_round = options->round_brackets,
+                        .names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL)};
     for (size_t i = 0; i < options->value_count; i++) {
         g_array_append_val(system->values, options->values[i].value);
     }
@@ -167,6 +168,7 @@ static FrStatus parse(FrLsystem *system, const FrLoptions *options, const FrCont
     if (parser.errors == 0) {
         fr_lwarn(system, context->diags);
     }
+    g_hash_table_unref(parser.names);
     g_free(parser.is_used);
     return parser.errors == 0 ? FR_OK : FR_ERR_DOCUMENT;
 }

@@ -8,6 +8,8 @@
 
 #define MOST_INSTANCES 65535
 #define MOST_VARIABLES 64000000
+#define MOST_STEPS 1000000000
+#define DEEPEST 4096 // replacements within each other
 
 FrLsettings fr_lsettings_default(void) {
     return (FrLsettings){.seed = -1, .steps = -1, .unit = 1};
@@ -89,13 +91,22 @@ static const char *fault_text(const char *code) {
         return "an index is out of range; the nearest element is taken";
     }
     if (strcmp(code, "recursive-call") == 0) {
-        return "an L-system cannot call itself";
+        return "an L-system cannot call itself, nor more than 100 one another";
+    }
+    if (strcmp(code, "unknown-call") == 0) {
+        return "there is no L-system of that label; the call does nothing";
+    }
+    if (strcmp(code, "no-number") == 0) {
+        return "this parameter is infinite or no number";
     }
     return "a module could be decomposed or replaced further, but 'maximum depth' is reached";
 }
 
 static FrSpan place_span(const FrLsystem *system, uint32_t place) {
     uint32_t production = place ^ FR_LPLACE_PRODUCTION;
+    if (place == FR_LPLACE_AXIOM) {
+        return ((const FrLunit *)g_ptr_array_index(system->units, 0))->axiom_span;
+    }
     if (production < system->productions->len) {
         return g_array_index(system->productions, FrLproduction, production).span;
     }
@@ -133,6 +144,41 @@ FrStatus fr_lderive_check(FrLderivation *derivation, const FrContext *context) {
                        place_span(derivation->system, machine->endless.place), context->diags);
     g_free(who);
     return status;
+}
+
+FrStatus fr_lderive_limit(const FrLderivation *derivation, uint64_t wanted, uint64_t limit,
+                          const char *limit_name, const FrLproduction *production, const char *what,
+                          uint64_t module, const FrContext *context) {
+    if (wanted <= limit) {
+        return FR_OK;
+    }
+    char *who =
+        g_strdup_printf("%s (step %" G_GUINT64_FORMAT ", module %" G_GUINT64_FORMAT ")",
+                        production == NULL ? what : production->name, derivation->step, module + 1);
+    FrSpan span = production == NULL ? (FrSpan){0} : production->span;
+    FrStatus status = fr_limit_check(wanted, limit, limit_name, who, span, context->diags);
+    g_free(who);
+    return status;
+}
+
+const FrLproduction *fr_lderive_maker(const FrLderivation *derivation, uint32_t mark) {
+    const GArray *productions = derivation->system->productions;
+    return mark == 0 || mark > productions->len
+               ? NULL
+               : &g_array_index(productions, FrLproduction, mark - 1);
+}
+
+FrStatus fr_lderive_depth(FrLderivation *derivation, const FrLsection *section,
+                          const FrContext *context, uint32_t *depth) {
+    *depth = 1;
+    if (section->depth == FR_NONE) {
+        return FR_OK;
+    }
+    double wanted = fr_lmachine_run(&derivation->machine, section->depth);
+    uint64_t most = MIN(context->limits.depth, DEEPEST);
+    *depth = (uint32_t)CLAMP(wanted, 0, (double)most);
+    return fr_limit_check((uint64_t)CLAMP(wanted, 0, 1e18), most, "depth", "'maximum depth'",
+                          place_span(derivation->system, section->depth), context->diags);
 }
 
 // ---- beginning --------------------------------------------------------------------------------
@@ -189,6 +235,18 @@ static void seed_choice(FrLderivation *derivation, const FrLunit *unit) {
                  : fr_lrandom_seed_a(isfinite(seed) ? (int64_t)CLAMP(seed, -9e18, 9e18) : 0);
 }
 
+static FrStatus check_length(const FrLderivation *derivation, const FrLunit *unit,
+                             const FrContext *context) {
+    if (derivation->length <= MOST_STEPS) {
+        return FR_OK;
+    }
+    fr_diags_add(context->diags, FR_ERROR, "limit-steps",
+                 place_span(derivation->system, unit->length),
+                 "the derivation length is %" G_GINT64_FORMAT "; at most %d steps are done",
+                 derivation->length, MOST_STEPS);
+    return FR_ERR_LIMIT;
+}
+
 static FrStatus begin(FrLderivation *derivation, const FrContext *context) {
     const FrLunit *unit = g_ptr_array_index(derivation->system->units, 0);
     FrLmachine *machine = &derivation->machine;
@@ -208,7 +266,8 @@ static FrStatus begin(FrLderivation *derivation, const FrContext *context) {
     instance->has_started = instance->was_seen = true;
     fr_linstance_block(derivation, instance, FR_LSTART);
     fr_linstance_enter(derivation, instance);
-    FrStatus status = make_axiom(derivation, context);
+    FrStatus status = check_length(derivation, unit, context);
+    status = status == FR_OK ? make_axiom(derivation, context) : status;
     fr_lderive_report(derivation, machine, context);
     FrStatus checked = fr_lderive_check(derivation, context);
     return MAX(status, checked);

@@ -5,7 +5,6 @@
 #include <math.h>
 
 #define DEEPEST_CALL 100
-#define DEEPEST 4096 // decompositions within each other
 
 /// A step at work.
 typedef struct Step {
@@ -26,16 +25,12 @@ typedef struct Step {
     bool needs_index;
 } Step;
 
-static FrSpan production_span(const FrLproduction *production) {
-    return production == NULL ? (FrSpan){0} : production->span;
-}
-
-static void refuse(Step *step, uint64_t wanted, const FrLproduction *production) {
+static void refuse(Step *step, uint64_t wanted, uint64_t limit, const char *limit_name,
+                   const FrLproduction *production) {
     if (step->status == FR_OK) {
-        const FrLimits *limits = &step->context->limits;
-        step->status = fr_limit_check(MAX(wanted, limits->modules + 1), limits->modules, "modules",
-                                      production == NULL ? "the string" : production->name,
-                                      production_span(production), step->context->diags);
+        step->status = fr_lderive_limit(step->derivation, MAX(wanted, limit + 1), limit, limit_name,
+                                        production, "the string", step->derivation->machine.module,
+                                        step->context);
     }
 }
 
@@ -44,22 +39,20 @@ static uint32_t *make_room(Step *step, uint64_t words, uint64_t modules,
                            const FrLproduction *production) {
     FrLstring *to = step->to;
     if (to->modules + modules > step->context->limits.modules) {
-        refuse(step, to->modules + modules, production);
+        refuse(step, to->modules + modules, step->context->limits.modules, "modules", production);
         return NULL;
     }
     if (to->count + words > to->capacity) {
         uint64_t wanted = MAX(to->count + words, to->capacity + to->capacity / 2);
-        if (to->count + words > UINT32_MAX || wanted * 4 > step->context->limits.bytes) {
-            step->status =
-                fr_limit_check(fr_count_multiply(wanted, 4),
-                               MIN(step->context->limits.bytes, (uint64_t)UINT32_MAX * 4), "bytes",
-                               "the string", production_span(production), step->context->diags);
-            if (step->status != FR_OK) {
-                return NULL;
-            }
+        uint64_t most = MIN(step->context->limits.bytes, (uint64_t)UINT32_MAX * 4);
+        wanted = MIN(wanted, most / 4);
+        if (to->count + words > wanted) {
+            refuse(step, (to->count + words) * 4, most, "bytes", production);
+            return NULL;
         }
         if (!fr_lstring_reserve(to, wanted)) {
-            fr_diags_add(step->context->diags, FR_ERROR, "memory", production_span(production),
+            fr_diags_add(step->context->diags, FR_ERROR, "memory",
+                         production == NULL ? (FrSpan){0} : production->span,
                          "there is no memory for the string");
             step->status = FR_ERR_MACHINE;
             return NULL;
@@ -99,7 +92,7 @@ static void decompose(Step *step, guint offset, guint count, const FrLsite *site
             continue;
         }
         if (++step->work > step->context->limits.modules) {
-            refuse(step, step->work, production);
+            refuse(step, step->work, step->context->limits.modules, "modules", production);
             return;
         }
         guint begin = step->scratch->len;
@@ -154,11 +147,9 @@ static void work_in(Step *step, FrLinstance *instance) {
         fr_lmatcher(step->derivation->system, &step->derivation->machine, instance->unit);
     step->section = &instance->unit->sections[FR_LDERIVE];
     step->decomposition = &instance->unit->sections[FR_LDECOMPOSE];
-    step->depth = 1;
-    if (step->decomposition->depth != FR_NONE) {
-        double depth = fr_lmachine_run(&step->derivation->machine, step->decomposition->depth);
-        step->depth = (uint32_t)CLAMP(depth, 0, (double)MIN(step->context->limits.depth, DEEPEST));
-    }
+    FrStatus status =
+        fr_lderive_depth(step->derivation, step->decomposition, step->context, &step->depth);
+    step->status = MAX(step->status, status);
 }
 
 // Variables that belong to the caller are copied in on entry and back on return.
@@ -202,16 +193,41 @@ static FrLinstance *instance_of(Step *step, const FrLunit *unit, uint32_t *numbe
     return instance;
 }
 
+/// Whether a production calls the L-system, by its label or by one that is computed.
+static bool may_call(const FrLsystem *system, uint32_t production, uint32_t id) {
+    const FrLproduction *p = &g_array_index(system->productions, FrLproduction, production);
+    for (uint32_t at = 0; at < p->word_count;) {
+        const uint32_t *here = &g_array_index(system->words, uint32_t, p->words + at);
+        if (fr_lhead_calls(*here) && (here[1] == id || here[1] == 0)) {
+            return true;
+        }
+        at += 1 + fr_lhead_count(*here);
+    }
+    return false;
+}
+
+/// Where an L-system writes its calls of another.
+static uint32_t place_of_call(const FrLsystem *system, const FrLunit *unit, uint32_t id) {
+    for (int s = FR_LDERIVE; s <= FR_LDECOMPOSE; s++) {
+        const GArray *list = unit->sections[s].list;
+        for (guint i = 0; i < list->len; i++) {
+            uint32_t production = g_array_index(list, uint32_t, i);
+            if (may_call(system, production, id)) {
+                return FR_LPLACE_PRODUCTION | production;
+            }
+        }
+    }
+    return FR_LPLACE_AXIOM;
+}
+
 /// Enters the L-system that the module `?(id, …)` of the old string calls. `kept` is the module of
 /// the new string that goes on with its instance; NULL: the instance ends with this step.
 static void call(Step *step, const uint32_t *module, uint32_t *kept) {
     FrLderivation *derivation = step->derivation;
     const FrLunit *unit = fr_lsystem_unit(derivation->system, trunc(fr_lword_float(module[1])));
-    if (unit == NULL) {
-        return;
-    }
-    if (is_active(step, unit) || step->calls == DEEPEST_CALL) {
-        fr_lmachine_fault(&derivation->machine, "recursive-call", 0);
+    if (unit == NULL || is_active(step, unit) || step->calls == DEEPEST_CALL) {
+        fr_lmachine_fault(&derivation->machine, unit == NULL ? "unknown-call" : "recursive-call",
+                          place_of_call(derivation->system, step->instance->unit, module[1]));
         return;
     }
     uint32_t number = *module >> 16;
@@ -313,7 +329,7 @@ static uint64_t rewrite(Step *step, uint64_t at, uint64_t *module) {
         return at + taken;
     }
     taken = decompose_kept(step, here, &site, &modules);
-    if (taken == 0 && *here == fr_lhead('%', 0)) {
+    if (taken == 0 && (*here & FR_LHEAD_KEY) == fr_lhead('%', 0)) {
         return cut(step, at, module);
     }
     if (taken == 0) {
@@ -336,7 +352,7 @@ static void scan(Step *step) {
         if ((module & 0xFFFF) == 0 && fr_progress_is_cancelled(step->context->progress)) {
             step->status = FR_CANCELLED;
         }
-        bool is_cut = *here == fr_lhead('%', 0);
+        bool is_cut = (*here & FR_LHEAD_KEY) == fr_lhead('%', 0);
         at = rewrite(step, at, &module);
         if (has_calls && !is_cut) {
             follow(step, here, from->words + at, out);

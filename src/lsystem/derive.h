@@ -62,6 +62,17 @@ const FrLunit *fr_lsystem_unit(const FrLsystem *system, double id);
 void fr_linstance_block(FrLderivation *derivation, FrLinstance *instance, int block);
 /// Makes the variables of an instance those of the machine.
 void fr_linstance_enter(FrLderivation *derivation, FrLinstance *instance);
+/// fr_limit_check() for what is asked for at a module of the step at hand, which is told with it;
+/// `production` NULL: `what` asks.
+FR_MUST_USE FrStatus fr_lderive_limit(const FrLderivation *derivation, uint64_t wanted,
+                                      uint64_t limit, const char *limit_name,
+                                      const FrLproduction *production, const char *what,
+                                      uint64_t module, const FrContext *context);
+/// The production that a module comes from by the mark of its head; NULL: the axiom.
+const FrLproduction *fr_lderive_maker(const FrLderivation *derivation, uint32_t mark);
+/// `maximum depth` of a section (1 where it says nothing), or an error where that is too much.
+FR_MUST_USE FrStatus fr_lderive_depth(FrLderivation *derivation, const FrLsection *section,
+                                      const FrContext *context, uint32_t *depth);
 /// Tells what went wrong and forgets it.
 void fr_lderive_report(FrLderivation *derivation, FrLmachine *machine, const FrContext *context);
 /// FR_OK, or the error of a loop that does not end.

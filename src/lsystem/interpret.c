@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#define DEEPEST 4096
-
 typedef struct Reading {
     FrLderivation *derivation;
     const FrContext *context;
@@ -34,12 +32,10 @@ static void work_in(Reading *reading, FrLinstance *instance) {
     reading->matcher = fr_lmatcher(derivation->system, &derivation->machine,
                                    g_ptr_array_index(derivation->system->units, 0));
     reading->section = &instance->unit->sections[FR_LHOMOMORPHISM];
-    reading->depth = 1;
-    if (reading->section->depth != FR_NONE) {
-        double depth = fr_lmachine_run(&derivation->machine, reading->section->depth);
-        reading->depth =
-            (uint32_t)CLAMP(depth, 0, (double)MIN(reading->context->limits.depth, DEEPEST));
-    }
+    FrStatus status =
+        fr_lderive_depth(derivation, reading->section, reading->context, &reading->depth);
+    reading->status = MAX(reading->status, status);
+    reading->goes_on &= status == FR_OK;
 }
 
 static void give(Reading *reading, const uint32_t *module) {
@@ -63,7 +59,8 @@ static void replace(Reading *reading, guint offset, guint count, const FrLsite *
             production = NULL;
         }
         if (production == NULL) {
-            bool is_cut = words[at] == fr_lhead('%', 0); // made here, it means nothing
+            // A cut that is made here means nothing.
+            bool is_cut = (words[at] & FR_LHEAD_KEY) == fr_lhead('%', 0);
             if (!is_cut || *reading->is_raw) {
                 give(reading, words + at);
             }
@@ -71,9 +68,9 @@ static void replace(Reading *reading, guint offset, guint count, const FrLsite *
             continue;
         }
         if (++reading->work > reading->context->limits.modules) {
-            reading->status =
-                fr_limit_check(reading->work, reading->context->limits.modules, "modules",
-                               production->name, production->span, reading->context->diags);
+            reading->status = fr_lderive_limit(reading->derivation, reading->work,
+                                               reading->context->limits.modules, "modules",
+                                               production, NULL, reading->origin, reading->context);
             reading->goes_on = false;
             return;
         }
@@ -232,18 +229,20 @@ FrStatus fr_lderive_interpret(FrLderivation *derivation, FrLtake take, const boo
 // ---- what it is used for ----------------------------------------------------------------------
 
 typedef struct Copy {
+    const FrLderivation *derivation;
     FrLstring *to;
     const FrContext *context;
     FrStatus status;
 } Copy;
 
 static bool copy_module(void *data, const uint32_t *module, uint64_t origin) {
-    (void)origin;
     Copy *copy = data;
     FrLstring *to = copy->to;
     uint32_t words = 1 + fr_lhead_count(*module);
-    copy->status = fr_limit_check(to->modules + 1, copy->context->limits.modules, "modules",
-                                  "the homomorphism", (FrSpan){0}, copy->context->diags);
+    copy->status =
+        fr_lderive_limit(copy->derivation, to->modules + 1, copy->context->limits.modules,
+                         "modules", fr_lderive_maker(copy->derivation, fr_lhead_mark(*module)),
+                         "the homomorphism", origin, copy->context);
     if (copy->status == FR_OK && to->count + words > to->capacity &&
         !fr_lstring_reserve(to, MAX(1024, 2 * to->capacity + words))) {
         copy->status = FR_ERR_MACHINE;
@@ -259,7 +258,7 @@ static bool copy_module(void *data, const uint32_t *module, uint64_t origin) {
 
 FrStatus fr_lderivation_homomorphism(FrLderivation *derivation, const FrContext *context,
                                      FrLstring **string) {
-    Copy copy = {fr_lstring_new(), context, FR_OK};
+    Copy copy = {derivation, fr_lstring_new(), context, FR_OK};
     FrStatus status = fr_lderive_interpret(derivation, copy_module, NULL, &copy, context);
     status = MAX(status, copy.status);
     *string = status == FR_OK ? copy.to : NULL;

@@ -149,11 +149,13 @@ static FrSource *load(const char *name, const char *folder, FrSpan span, const F
 
 /// The file beside that of the L-system with another extension; NULL if there is none.
 static char *name_beside(const FrLsystemParams *params, const char *folder, const char *extension) {
-    const char *file = params->file == NULL ? "" : params->file;
-    if (!g_str_has_suffix(file, ".l") && !g_str_has_suffix(file, ".L")) {
+    const char *file = params->file == NULL ? "" : params->file, *dot = strrchr(file, '.');
+    if (*file == '\0') {
         return NULL;
     }
-    char *name = g_strdup_printf("%.*s%s", (int)(strlen(file) - 2), file, extension);
+    bool has_extension = dot != NULL && dot != file && strchr(dot, '/') == NULL;
+    size_t stem = has_extension ? (size_t)(dot - file) : strlen(file);
+    char *name = g_strdup_printf("%.*s%s", (int)stem, file, extension);
     char *path = g_path_is_absolute(name) ? g_strdup(name) : g_build_filename(folder, name, NULL);
     if (!g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
         g_clear_pointer(&name, g_free);

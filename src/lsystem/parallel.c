@@ -120,16 +120,48 @@ static void cut_pieces(Step *step) {
     }
 }
 
-static FrSpan culprit(const Step *step, const char **name) {
-    const GArray *list = step->section->list;
-    *name = "the string";
-    if (list->len == 0) {
-        return (FrSpan){0};
+/// What brings the string beyond so many modules or words: the module whose successor does.
+static const FrLproduction *culprit(const Step *step, uint64_t most_modules, uint64_t most_words,
+                                    uint64_t *module) {
+    const FrLproduction *productions =
+        (const FrLproduction *)(const void *)step->derivation->system->productions->data;
+    size_t i = 0;
+    while (i + 1 < step->count && step->pieces[i + 1].out_module <= most_modules &&
+           step->pieces[i + 1].out_word <= most_words) {
+        i++;
     }
-    const FrLproduction *production = &g_array_index(
-        step->derivation->system->productions, FrLproduction, g_array_index(list, uint32_t, 0));
-    *name = production->name;
-    return production->span;
+    const Piece *piece = &step->pieces[i];
+    const FrLproduction *production = NULL;
+    uint64_t modules = piece->out_module, words = piece->out_word;
+    *module = piece->module;
+    for (uint64_t at = piece->word; at < piece->word_end; (*module)++) {
+        uint32_t choice = step->choices[*module], own = 1 + fr_lhead_count(step->from->words[at]);
+        production = choice == 0 ? NULL : productions + choice - 1;
+        modules += choice == 0 ? 1 : production->modules;
+        words += choice == 0 ? own : production->word_count;
+        if (modules > most_modules || words > most_words) {
+            break;
+        }
+        at += own;
+    }
+    return production;
+}
+
+/// Refuses what is too much, with the module that first was.
+static FrStatus check(const Step *step, uint64_t modules, uint64_t words,
+                      const FrContext *context) {
+    uint64_t most_modules = MIN(context->limits.modules, UINT32_MAX - 1), module = 0;
+    uint64_t most_bytes = MIN(context->limits.bytes, (uint64_t)UINT32_MAX * 4);
+    if (modules <= most_modules && words <= most_bytes / 4) {
+        return FR_OK;
+    }
+    const FrLproduction *production = culprit(step, most_modules, most_bytes / 4, &module);
+    FrStatus status = fr_lderive_limit(step->derivation, modules, most_modules, "modules",
+                                       production, "the string", module, context);
+    return status != FR_OK
+               ? status
+               : fr_lderive_limit(step->derivation, fr_count_multiply(words, 4), most_bytes,
+                                  "bytes", production, "the string", module, context);
 }
 
 /// Gives each piece its place; takes the memory if it is allowed.
@@ -144,20 +176,13 @@ static FrStatus lay_out(Step *step, const FrContext *context) {
         modules = fr_count_add(modules, piece->out_modules);
         marks += piece->marks;
     }
-    const char *name;
-    FrSpan span = culprit(step, &name);
-    FrStatus status = fr_limit_check(modules, MIN(context->limits.modules, UINT32_MAX - 1),
-                                     "modules", name, span, context->diags);
-    if (status == FR_OK) {
-        status = fr_limit_check(fr_count_multiply(words, 4),
-                                MIN(context->limits.bytes, (uint64_t)UINT32_MAX * 4), "bytes", name,
-                                span, context->diags);
-    }
+    FrStatus status = check(step, modules, words, context);
     if (status != FR_OK) {
         return status;
     }
     if (!fr_lstring_reserve(step->to, words)) {
-        fr_diags_add(context->diags, FR_ERROR, "memory", span, "there is no memory for the string");
+        fr_diags_add(context->diags, FR_ERROR, "memory", (FrSpan){0},
+                     "there is no memory for the string");
         return FR_ERR_MACHINE;
     }
     step->to->count = words;

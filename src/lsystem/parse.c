@@ -286,6 +286,21 @@ static void read_sections(FrLparser *parser) {
     }
 }
 
+/// Of two L-systems with one number only the first can be called.
+static void check_label(FrLparser *parser, size_t begin, size_t end) {
+    const GPtrArray *units = parser->system->units;
+    for (guint u = 0; u + 1 < units->len; u++) {
+        const FrLunit *unit = g_ptr_array_index(units, u);
+        if (unit->id == parser->unit->id) {
+            fr_lparse_warning(parser, begin, end, "duplicate-label",
+                              "there is an L-system %" G_GINT64_FORMAT
+                              " already; calls lead to that one",
+                              unit->id);
+            return;
+        }
+    }
+}
+
 static void read_label(FrLparser *parser) {
     fr_lparse_blanks(parser);
     size_t begin = parser->at;
@@ -293,28 +308,49 @@ static void read_label(FrLparser *parser) {
     parser->unit->id = g_ascii_strtoll(parser->bytes + begin, &end, 10);
     if (fr_lparse_at_line_end(parser)) {
         fr_lparse_error(parser, begin, begin + 1, "syntax", "an L-system needs a label");
+    } else if (end != parser->bytes + begin) {
+        check_label(parser, begin, (size_t)(end - parser->bytes));
     }
     fr_lparse_skip_line(parser);
 }
 
+/// `Lsystem:`; a colon that is not there is told. What else stands before is told once.
+static bool begin_lsystem(FrLparser *parser, bool *is_told) {
+    size_t begin = parser->at;
+    if (fr_lparse_keyword(parser, "lsystem:")) {
+        return true;
+    }
+    if (fr_lparse_keyword(parser, "lsystem") || fr_lparse_keyword(parser, "l-system")) {
+        size_t end = parser->at;
+        fr_lparse_accept(parser, ":");
+        fr_lparse_error(parser, begin, end, "syntax",
+                        "an L-system begins with 'Lsystem:' and its label");
+        parser->has_failed = false;
+        return true;
+    }
+    if (!*is_told) {
+        fr_lparse_error(parser, begin, begin + 1, "syntax", "'Lsystem:' is wanted here");
+        *is_told = true;
+    }
+    fr_lparse_skip_line(parser);
+    return false;
+}
+
 void fr_lparse_cpfg(FrLparser *parser) {
+    bool is_told = false;
     while (parser->errors < MOST_ERRORS) {
         char c = fr_lparse_peek(parser);
         if (c == '\n') {
             parser->at++;
         } else if (c == '\0') {
             return;
-        } else if (fr_lparse_keyword(parser, "lsystem:")) {
+        } else if (begin_lsystem(parser, &is_told)) {
             fr_lparse_begin_unit(parser);
             read_label(parser);
             if (read_head(parser)) {
                 read_sections(parser);
             }
             parser->has_failed = false;
-        } else {
-            fr_lparse_error(parser, parser->at, parser->at + 1, "syntax",
-                            "'Lsystem:' is wanted here");
-            fr_lparse_skip_line(parser);
         }
     }
 }

@@ -21,10 +21,12 @@ typedef struct FrLparser {
     uint32_t depth;      ///< of nested expressions and blocks
     int stack;           ///< values that the code so far leaves on the stack
     bool is_block;       ///< newlines are blanks
+    bool is_leaf;        ///< the expression read last is a number or a name
     bool is_impure;      ///< what was compiled so far writes, draws or prints
     bool is_round;       ///< round brackets branch
     bool has_failed;     ///< within this line
     uint32_t errors;
+    GHashTable *names; ///< name of a production → how many have it
 } FrLparser;
 
 void fr_lparse_error(FrLparser *parser, size_t begin, size_t end, const char *code,
@@ -47,10 +49,10 @@ void fr_lparse_skip_line(FrLparser *parser);
 
 // ---- parse_expression.c -----------------------------------------------------------------------
 
-/// Compiles an expression; its value is on the stack.
-void fr_lparse_expression(FrLparser *parser);
-/// An expression as a piece of code of its own.
-uint32_t fr_lparse_value(FrLparser *parser);
+/// A number, name, call or bracket, with the signs before it.
+void fr_lparse_unary(FrLparser *parser);
+/// Lets the jump at `jump` lead to the code that comes next.
+void fr_lparse_land(FrLparser *parser, uint32_t jump);
 uint32_t fr_lparse_code_here(const FrLparser *parser);
 void fr_lparse_emit(FrLparser *parser, FrLop op, uint32_t a, uint32_t n, double value, size_t at);
 /// The variable of a name: local, then global; made where it is not known. `is_new` may be NULL.
@@ -60,6 +62,13 @@ uint32_t fr_lparse_new_variable(FrLparser *parser, uint64_t count, size_t at);
 uint32_t fr_lparse_string(FrLparser *parser);
 /// The array of that name, or FR_NONE.
 uint32_t fr_lparse_find_array(FrLparser *parser, const char *name);
+
+// ---- parse_operators.c ------------------------------------------------------------------------
+
+/// Compiles an expression; its value is on the stack.
+void fr_lparse_expression(FrLparser *parser);
+/// An expression as a piece of code of its own.
+uint32_t fr_lparse_value(FrLparser *parser);
 
 // ---- parse_statement.c ------------------------------------------------------------------------
 

@@ -1,5 +1,4 @@
-// Expressions in the order of cpfg's operators, compiled while they are read:
-// ?:  ||  &&  == != <>  < <= > >=  + -  * / %  ^ (to the left)  unary -  !
+// Expressions, compiled while they are read: what operators join, and the code that comes of it.
 #include "lsystem/parse.h"
 
 #include "lsystem/vm.h"
@@ -73,6 +72,8 @@ static int stack_effect(FrLop op, uint32_t n) {
         return 1 - (int)n;
     case FR_LOP_INDEX_STORE:
         return -1 - (int)n;
+    case FR_LOP_JUMP_TRUE:
+        return 0;
     case FR_LOP_STORE:
     case FR_LOP_DROP:
     case FR_LOP_JUMP_ZERO:
@@ -92,13 +93,12 @@ void fr_lparse_emit(FrLparser *parser, FrLop op, uint32_t a, uint32_t n, double 
     if (!fold(parser, op, at)) {
         append(parser, op, a, n, value, at);
     }
-    if (op == FR_LOP_JUMP || op == FR_LOP_JUMP_ZERO) {
+    if (op == FR_LOP_JUMP || op == FR_LOP_JUMP_ZERO || op == FR_LOP_JUMP_TRUE) {
         parser->barrier = parser->system->code->len;
     }
 }
 
-/// Lets the jump at `jump` lead to the code that comes next.
-static void land(FrLparser *parser, uint32_t jump) {
+void fr_lparse_land(FrLparser *parser, uint32_t jump) {
     g_array_index(parser->system->code, FrLcode, jump).a = parser->system->code->len;
     parser->barrier = parser->system->code->len;
 }
@@ -173,8 +173,6 @@ uint32_t fr_lparse_string(FrLparser *parser) {
     return parser->system->strings->len - 1;
 }
 
-static void read_ternary(FrLparser *parser);
-
 /// Arguments up to the closing bracket, which is taken; returns how many.
 static uint32_t read_arguments(FrLparser *parser) {
     uint32_t count = 0;
@@ -187,7 +185,7 @@ static uint32_t read_arguments(FrLparser *parser) {
             fr_lparse_emit(parser, FR_LOP_CONST, 0, 0, text, parser->at);
         } else {
             fr_lparse_accept(parser, "&"); // the address of what a left-out function would fill
-            read_ternary(parser);
+            fr_lparse_expression(parser);
         }
         count++;
     } while (!parser->has_failed && count < MOST_ARGUMENTS && fr_lparse_accept(parser, ","));
@@ -262,7 +260,7 @@ static void read_call(FrLparser *parser, const char *name, size_t begin) {
 static void read_index(FrLparser *parser, uint32_t array, size_t begin) {
     uint32_t count = 0;
     while (!parser->has_failed && fr_lparse_accept(parser, "[")) {
-        read_ternary(parser);
+        fr_lparse_expression(parser);
         fr_lparse_expect(parser, "]");
         count++;
     }
@@ -330,8 +328,10 @@ static void read_named(FrLparser *parser) {
     uint32_t array = fr_lparse_find_array(parser, name);
     if (array != FR_NONE) {
         read_index(parser, array, begin);
+        parser->is_leaf = false;
     } else if (fr_lparse_accept(parser, "(")) {
         read_call(parser, name, begin);
+        parser->is_leaf = false;
     } else if (!read_juxtaposed(parser, name, begin)) {
         fr_lparse_emit(parser, FR_LOP_VAR, fr_lparse_variable(parser, name, false, begin), 0, 0,
                        begin);
@@ -342,8 +342,9 @@ static void read_named(FrLparser *parser) {
 static void read_primary(FrLparser *parser) {
     char c = fr_lparse_peek(parser);
     size_t begin = parser->at;
+    parser->is_leaf = true;
     if (fr_lparse_accept(parser, "(")) {
-        read_ternary(parser);
+        fr_lparse_expression(parser);
         fr_lparse_expect(parser, ")");
     } else if (g_ascii_isdigit(c) || (c == '.' && g_ascii_isdigit(parser->bytes[begin + 1]))) {
         read_number(parser);
@@ -354,7 +355,7 @@ static void read_primary(FrLparser *parser) {
     }
 }
 
-static void read_unary(FrLparser *parser) {
+void fr_lparse_unary(FrLparser *parser) {
     char c = fr_lparse_peek(parser);
     size_t begin = parser->at;
     if (parser->has_failed) {
@@ -364,126 +365,11 @@ static void read_unary(FrLparser *parser) {
         fr_lparse_error(parser, begin, begin + 1, "too-deep", "expressions are nested too deeply");
     } else if (c == '-' || (c == '!' && parser->bytes[begin + 1] != '=')) {
         parser->at++;
-        read_unary(parser);
+        fr_lparse_unary(parser);
+        parser->is_leaf = false;
         fr_lparse_emit(parser, c == '-' ? FR_LOP_NEGATE : FR_LOP_NOT, 0, 0, 0, begin);
     } else {
         read_primary(parser);
     }
     parser->depth--;
-}
-
-typedef struct Operator {
-    const char *text;
-    int level;
-    FrLop op;
-} Operator;
-
-static const Operator binary[] = {
-    {"==", 3, FR_LOP_EQUAL},         {"!=", 3, FR_LOP_UNEQUAL},
-    {"<>", 3, FR_LOP_UNEQUAL},       {"<=", 4, FR_LOP_LESS_EQUAL},
-    {">=", 4, FR_LOP_GREATER_EQUAL}, {"<", 4, FR_LOP_LESS},
-    {">", 4, FR_LOP_GREATER},        {"+", 5, FR_LOP_ADD},
-    {"-", 5, FR_LOP_SUBTRACT},       {"*", 6, FR_LOP_MULTIPLY},
-    {"/", 6, FR_LOP_DIVIDE},         {"%", 6, FR_LOP_MODULO},
-    {"^", 7, FR_LOP_POWER},
-};
-
-static const Operator *next_operator(FrLparser *parser) {
-    fr_lparse_peek(parser);
-    const char *here = parser->bytes + parser->at;
-    if (here[0] == '-' && (here[1] == '>' || (here[1] != '\0' && here[2] == '>'))) {
-        bool is_arrow =
-            here[1] == '-' || here[1] == 'o' || (here[1] == '>' && parser->system->is_paper);
-        if (is_arrow) {
-            return NULL;
-        }
-    }
-    for (size_t i = 0; i < G_N_ELEMENTS(binary); i++) {
-        if (g_str_has_prefix(here, binary[i].text)) {
-            return &binary[i];
-        }
-    }
-    return NULL;
-}
-
-static void read_binary(FrLparser *parser, int level) {
-    read_unary(parser);
-    while (!parser->has_failed) {
-        const Operator *operator= next_operator(parser);
-        if (operator== NULL || operator->level <= level) {
-            return;
-        }
-        size_t begin = parser->at;
-        parser->at += strlen(operator->text);
-        read_binary(parser, operator->level);
-        fr_lparse_emit(parser, operator->op, 0, 0, 0, begin);
-    }
-}
-
-// The code of the left side stands; the right side is only run where it decides.
-static void read_and(FrLparser *parser) {
-    read_binary(parser, 2);
-    while (!parser->has_failed && fr_lparse_accept(parser, "&&")) {
-        uint32_t skip = fr_lparse_code_here(parser);
-        fr_lparse_emit(parser, FR_LOP_JUMP_ZERO, 0, 0, 0, parser->at);
-        read_binary(parser, 2);
-        fr_lparse_emit(parser, FR_LOP_TRUTH, 0, 0, 0, parser->at);
-        uint32_t end = fr_lparse_code_here(parser);
-        fr_lparse_emit(parser, FR_LOP_JUMP, 0, 0, 0, parser->at);
-        land(parser, skip);
-        parser->stack--;
-        fr_lparse_emit(parser, FR_LOP_CONST, 0, 0, 0, parser->at);
-        land(parser, end);
-    }
-}
-
-static void read_or(FrLparser *parser) {
-    read_and(parser);
-    while (!parser->has_failed && fr_lparse_accept(parser, "||")) {
-        uint32_t skip = fr_lparse_code_here(parser);
-        fr_lparse_emit(parser, FR_LOP_JUMP_ZERO, 0, 0, 0, parser->at);
-        fr_lparse_emit(parser, FR_LOP_CONST, 0, 0, 1, parser->at);
-        uint32_t end = fr_lparse_code_here(parser);
-        fr_lparse_emit(parser, FR_LOP_JUMP, 0, 0, 0, parser->at);
-        land(parser, skip);
-        parser->stack--;
-        read_and(parser);
-        fr_lparse_emit(parser, FR_LOP_TRUTH, 0, 0, 0, parser->at);
-        land(parser, end);
-    }
-}
-
-static void read_ternary(FrLparser *parser) {
-    if (++parser->depth > DEEPEST) {
-        fr_lparse_error(parser, parser->at, parser->at + 1, "too-deep",
-                        "expressions are nested too deeply");
-    } else {
-        read_or(parser);
-    }
-    if (!parser->has_failed && fr_lparse_accept(parser, "?")) {
-        uint32_t skip = fr_lparse_code_here(parser);
-        fr_lparse_emit(parser, FR_LOP_JUMP_ZERO, 0, 0, 0, parser->at);
-        read_ternary(parser);
-        uint32_t end = fr_lparse_code_here(parser);
-        fr_lparse_emit(parser, FR_LOP_JUMP, 0, 0, 0, parser->at);
-        land(parser, skip);
-        parser->stack--;
-        fr_lparse_expect(parser, ":");
-        read_ternary(parser);
-        land(parser, end);
-    }
-    parser->depth--;
-}
-
-void fr_lparse_expression(FrLparser *parser) {
-    read_ternary(parser);
-}
-
-uint32_t fr_lparse_value(FrLparser *parser) {
-    uint32_t begin = fr_lparse_code_here(parser);
-    parser->barrier = begin;
-    parser->stack = 0;
-    read_ternary(parser);
-    fr_lparse_emit(parser, FR_LOP_END, 0, 0, 0, parser->at);
-    return begin;
 }

@@ -88,6 +88,13 @@ static void read_parameter(FrLparser *parser, uint32_t first_word) {
     }
 }
 
+static void check_count(FrLparser *parser, unsigned count, size_t begin) {
+    if (count == MOST_PARAMETERS && fr_lparse_peek(parser) == ',') {
+        fr_lparse_error(parser, begin, parser->at, "too-many-parameters",
+                        "a module has at most %d parameters", MOST_PARAMETERS);
+    }
+}
+
 static void read_module(FrLparser *parser, int symbol, FrLmodules *modules) {
     guint head = parser->system->words->len;
     unsigned count = 0;
@@ -98,10 +105,7 @@ static void read_module(FrLparser *parser, int symbol, FrLmodules *modules) {
             read_parameter(parser, modules->words);
             count++;
         } while (!parser->has_failed && count < MOST_PARAMETERS && fr_lparse_accept(parser, ","));
-        if (count == MOST_PARAMETERS && fr_lparse_peek(parser) == ',') {
-            fr_lparse_error(parser, begin, parser->at, "too-many-parameters",
-                            "a module has at most %d parameters", MOST_PARAMETERS);
-        }
+        check_count(parser, count, begin);
         fr_lparse_expect(parser, ")");
     }
     g_array_index(parser->system->words, uint32_t, head) = fr_lhead((unsigned)symbol, count);
@@ -167,6 +171,7 @@ static FrLpatterns read_patterns(FrLparser *parser) {
     }
     for (int symbol; !parser->has_failed && (symbol = read_symbol(parser)) >= 0;) {
         FrLpattern pattern = {0, parser->system->formals->len};
+        size_t begin = parser->at - 1;
         unsigned count = 0;
         if (!parser->is_round && fr_lparse_accept(parser, "(")) {
             do {
@@ -174,6 +179,7 @@ static FrLpatterns read_patterns(FrLparser *parser) {
                 count++;
             } while (!parser->has_failed && count < MOST_PARAMETERS &&
                      fr_lparse_accept(parser, ","));
+            check_count(parser, count, begin);
             fr_lparse_expect(parser, ")");
         }
         pattern.key = fr_lhead((unsigned)symbol, count);
@@ -232,15 +238,30 @@ static void read_arrow(FrLparser *parser) {
     parser->at += length;
 }
 
+/// The label, or the text of the predecessor; numbered where it has been used before.
 static char *name_of(const FrLparser *parser, size_t begin, size_t end, char *label) {
-    if (label != NULL) {
-        return label;
-    }
-    char *name = g_strndup(parser->bytes + begin, MIN(end - begin, 60));
+    char *name = label != NULL ? label : g_strndup(parser->bytes + begin, MIN(end - begin, 60));
     for (char *c = name; *c != '\0'; c++) {
         *c = g_ascii_isspace(*c) ? ' ' : *c;
     }
-    return g_strstrip(name);
+    g_strstrip(name);
+    guint times = GPOINTER_TO_UINT(g_hash_table_lookup(parser->names, name)) + 1;
+    g_hash_table_insert(parser->names, g_strdup(name), GUINT_TO_POINTER(times));
+    if (times > 1) {
+        char *plain = name;
+        name = g_strdup_printf("%s #%u", plain, times);
+        g_free(plain);
+    }
+    return name;
+}
+
+/// Marks the modules of a successor as made by production `index`; calls get their instance later.
+static void mark_modules(const FrLparser *parser, const FrLmodules *modules, uint32_t index) {
+    for (uint32_t at = 0; at < modules->word_count;) {
+        uint32_t *head = &g_array_index(parser->system->words, uint32_t, modules->words + at);
+        *head |= fr_lhead_calls(*head) ? 0 : (index + 1) << 16;
+        at += 1 + fr_lhead_count(*head);
+    }
 }
 
 void fr_lparse_production(FrLparser *parser, FrLsection *section, char *label) {
@@ -291,5 +312,6 @@ void fr_lparse_production(FrLparser *parser, FrLsection *section, char *label) {
     production.name = name_of(parser, begin, end, label);
     uint32_t index = system->productions->len;
     g_array_append_val(system->productions, production);
+    mark_modules(parser, &modules, index);
     g_array_append_val(section->list, index);
 }

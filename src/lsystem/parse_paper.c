@@ -126,9 +126,14 @@ static void settle_weights(FrLparser *parser) {
 void fr_lparse_paper(FrLparser *parser) {
     fr_lparse_begin_unit(parser);
     for (char c; (c = fr_lparse_peek(parser)) != '\0' && parser->errors < 1000;) {
+        size_t begin = parser->at;
         if (c == '\n') {
             parser->at++;
         } else if (fr_lparse_keyword(parser, "brackets: round")) {
+            if (parser->unit->axiom_modules > 0 || parser->system->productions->len > 0) {
+                fr_lparse_error(parser, begin, parser->at, "syntax",
+                                "'brackets: round' stands before the axiom and all productions");
+            }
             parser->is_round = true;
             fr_lparse_skip_line(parser);
         } else if (is_function(parser)) {

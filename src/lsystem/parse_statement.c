@@ -7,12 +7,6 @@
 
 static void read_block(FrLparser *parser);
 
-/// Where the jump at `jump` leads: to the code that comes next.
-static void land(FrLparser *parser, uint32_t jump) {
-    g_array_index(parser->system->code, FrLcode, jump).a = fr_lparse_code_here(parser);
-    parser->barrier = fr_lparse_code_here(parser);
-}
-
 static uint32_t emit_jump(FrLparser *parser, FrLop op, uint32_t to) {
     uint32_t here = fr_lparse_code_here(parser);
     fr_lparse_emit(parser, op, to, 0, 0, parser->at);
@@ -42,15 +36,15 @@ static void read_if(FrLparser *parser) {
     read_block(parser);
     if (accept_word(parser, "else")) {
         uint32_t end = emit_jump(parser, FR_LOP_JUMP, 0);
-        land(parser, skip);
+        fr_lparse_land(parser, skip);
         if (accept_word(parser, "if")) {
             read_if(parser);
         } else {
             read_block(parser);
         }
-        land(parser, end);
+        fr_lparse_land(parser, end);
     } else {
-        land(parser, skip);
+        fr_lparse_land(parser, skip);
     }
 }
 
@@ -61,7 +55,7 @@ static void read_while(FrLparser *parser) {
     uint32_t skip = emit_jump(parser, FR_LOP_JUMP_ZERO, 0);
     read_block(parser);
     emit_jump(parser, FR_LOP_BACK, begin);
-    land(parser, skip);
+    fr_lparse_land(parser, skip);
 }
 
 static void read_do(FrLparser *parser) {
@@ -75,7 +69,7 @@ static void read_do(FrLparser *parser) {
     read_condition(parser);
     uint32_t skip = emit_jump(parser, FR_LOP_JUMP_ZERO, 0);
     emit_jump(parser, FR_LOP_BACK, begin);
-    land(parser, skip);
+    fr_lparse_land(parser, skip);
     fr_lparse_expect(parser, ";");
 }
 

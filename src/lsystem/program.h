@@ -7,7 +7,8 @@
 ///     ┌ head: symbol │ count │ mark ┐ ┌ float ┐ ┌ float ┐ ┌ head …
 ///       8 bits        8       16
 ///
-/// The mark holds the instance of a sub-L-system called by `?`, elsewhere 0.
+/// The mark of `?` with parameters is the instance of the sub-L-system it calls, 0 for a new one;
+/// that of any other module the production it comes from, from 1, and 0 for the axiom.
 #pragma once
 
 #include "frond/lsystem.h"
@@ -26,6 +27,13 @@ static inline unsigned fr_lhead_symbol(uint32_t head) {
 }
 static inline unsigned fr_lhead_count(uint32_t head) {
     return head >> 8 & 0xFF;
+}
+static inline unsigned fr_lhead_mark(uint32_t head) {
+    return head >> 16;
+}
+/// Whether a module calls an L-system, so that its mark is an instance.
+static inline bool fr_lhead_calls(uint32_t head) {
+    return fr_lhead_symbol(head) == '?' && fr_lhead_count(head) > 0;
 }
 static inline float fr_lword_float(uint32_t word) {
     float value;
@@ -58,6 +66,8 @@ typedef enum FrLop {
     FR_LOP_DIVIDE,
     FR_LOP_MODULO,
     FR_LOP_POWER,
+    FR_LOP_AND, ///< 0 or 1; both sides have been computed
+    FR_LOP_OR,
     FR_LOP_LESS,
     FR_LOP_LESS_EQUAL,
     FR_LOP_GREATER,
@@ -68,6 +78,7 @@ typedef enum FrLop {
     FR_LOP_JUMP,           ///< to a
     FR_LOP_BACK,           ///< to a, counted against endless loops
     FR_LOP_JUMP_ZERO,      ///< pop, to a if it is 0
+    FR_LOP_JUMP_TRUE,      ///< to a if the top is true as a byte, and keep it
     FR_LOP_CALL,           ///< built-in function a with n arguments
     FR_LOP_PRINT,          ///< printf with text a and n arguments
     FR_LOP_USER,           ///< function a of the file, n arguments

@@ -21,9 +21,8 @@ void fr_lspline_begin(FrLturtle *turtle, int kind, int strips) {
     FrLtube spline = {.is_closed = kind % 2 == 0,
                       .is_b_spline = kind > 2,
                       .strips = strips > 0 ? (uint32_t)MIN(strips, MOST_STRIPS) : 4,
-                      .stand = turtle->pose.stand};
-    spline.stand.is_at_tip = false; // the curve may begin beside the node
-    spline.stand.is_lateral = true;
+                      // The curve may begin beside the node.
+                      .stand = (turtle->pose.stand & FR_LSTAND_NODE) | FR_LSTAND_LATERAL};
     if (turtle->pose.spline != 0) {
         *top(turtle) = spline;
     } else {
@@ -81,8 +80,9 @@ void fr_lspline_point(FrLturtle *turtle, int strips) {
     }
     uint32_t count = strips == 0 ? spline->strips : (uint32_t)CLAMP(strips, 1, MOST_STRIPS);
     add_point(turtle, spline, point_of(&turtle->pose), count);
-    if (spline->stand.node != FR_NONE && !spline->is_b_spline) {
-        turtle->pose.stand = (FrLstand){spline->stand.node, spline->count > 1, true};
+    uint32_t node = fr_lstand_node(spline->stand);
+    if (node != FR_NONE && !spline->is_b_spline) {
+        turtle->pose.stand = node | FR_LSTAND_LATERAL | (spline->count > 1 ? FR_LSTAND_TIP : 0);
     }
 }
 
@@ -108,7 +108,7 @@ void fr_lspline_push(FrLturtle *turtle) {
         return;
     }
     FrLtube copy = *spline;
-    copy.stand.is_lateral = true;
+    copy.stand |= FR_LSTAND_LATERAL;
     g_array_append_val(turtle->splines, copy);
 }
 

@@ -205,8 +205,10 @@ static void add_node(FrLbuilder *builder, FrLtube *spline, const FrLsegment *seg
 static void add_strip(FrLturtle *turtle, FrLtube *spline, const FrLpoint *from,
                       const FrLpoint *to) {
     FrLbuilder *builder = turtle->builder;
-    FrLsegment segment = {
-        .start_width = from->width, .end_width = to->width, .colour = turtle->pose.colour};
+    FrLsegment segment = {.start_width = from->width,
+                          .end_width = to->width,
+                          .maker = builder->maker,
+                          .colour = turtle->pose.colour};
     FrLpoint frame = *to;
     for (int k = 0; k < 3; k++) {
         segment.start[k] = from->position[k];
@@ -216,10 +218,11 @@ static void add_strip(FrLturtle *turtle, FrLtube *spline, const FrLpoint *from,
     if (!(fr_lvector_dot(frame.heading, frame.heading) > 0)) {
         return;
     }
+    segment.length = sqrt(fr_lvector_dot(frame.heading, frame.heading));
     fr_lvector_unit(frame.heading);
     fr_lpoint_untwist(&frame, from, 0);
-    memcpy(segment.heading, frame.heading, sizeof segment.heading);
-    memcpy(segment.left, frame.left, sizeof segment.left);
+    memcpy(segment.heading, frame.heading, sizeof frame.heading);
+    memcpy(segment.left, frame.left, sizeof frame.left);
     if (builder->view->style != FR_LSTYLE_CYLINDER) {
         // Lines and flat strips are drawn as segments and end the one that was begun.
         turtle->has_segment = false;

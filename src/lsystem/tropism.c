@@ -80,7 +80,14 @@ static void pull(const FrLpose *pose, const FrLtropism *tropism, double elastici
     }
 }
 
-// cpfg's quaternion turns up by the angle to the target, but away from it.
+/// The angle that cpfg turns by about an axis of that length. It does not scale lengths above 1, so
+/// that its quaternion is not of unit length there; hence the arc tangent.
+static double angle_of(double length) {
+    return length <= 1 ? length : 2 * atan2(sin(0.5) * length, cos(0.5));
+}
+
+// cpfg's quaternion turns up by the angle to the target, but away from it: both its quaternions are
+// applied from the right, and only that of headings has the sign for it.
 static void twist(FrLpose *pose, const double target[3]) {
     double unit[3] = {target[0], target[1], target[2]}, side[3], flat[3], axis[3];
     fr_lvector_unit(unit);
@@ -94,10 +101,9 @@ static void twist(FrLpose *pose, const double target[3]) {
         flat[k] *= length;
     }
     fr_lvector_cross(pose->up, flat, axis);
-    double angle = sqrt(fr_lvector_dot(axis, axis));
+    double angle = angle_of(sqrt(fr_lvector_dot(axis, axis)));
     if (angle >= 1e-7 && isfinite(angle)) {
         fr_lvector_unit(axis);
-        angle = MIN(angle, 1);
         fr_lvector_rotate(pose->up, axis, -sin(angle), cos(angle));
         fr_lvector_cross(pose->heading, pose->up, pose->left);
     }
@@ -105,14 +111,13 @@ static void twist(FrLpose *pose, const double target[3]) {
     memcpy(pose->last_up, pose->up, sizeof pose->last_up);
 }
 
-/// Turns the heading about `axis` by its length. Lengths above 1 make a quaternion that is not of
-/// unit length, hence the arc tangent.
+/// Turns the heading about `axis` by its length.
 static void bend(FrLpose *pose, double axis[3]) {
     double length = sqrt(fr_lvector_dot(axis, axis));
     if (!(length >= 1e-6) || !isfinite(length)) {
         return;
     }
-    double angle = length <= 1 ? length : 2 * atan2(sin(0.5) * length, cos(0.5));
+    double angle = angle_of(length);
     fr_lvector_unit(axis);
     fr_lvector_rotate(pose->heading, axis, sin(angle), cos(angle));
     fr_lturtle_untwist(pose);

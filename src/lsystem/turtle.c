@@ -40,7 +40,7 @@ void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuil
                              .leave = 1.2F,
                              .colour = view->colour,
                              .sides = view->contour_sides,
-                             .stand = {FR_NONE, false, true}};
+                             .stand = FR_NONE | FR_LSTAND_LATERAL};
     set_tropisms(&turtle->pose, view);
     turtle->corners = g_array_new(FALSE, FALSE, 3 * sizeof(double));
     turtle->polygons = g_array_new(FALSE, FALSE, sizeof(FrLpolygon));
@@ -85,6 +85,14 @@ static inline void turn(FrLturtle *turtle, const uint32_t *module, double a[4], 
     fr_lturtle_turn(a, b, sign * sine, cosine);
 }
 
+/// What is drawn next is told to come from this module.
+static inline void note_maker(FrLturtle *turtle, uint32_t head, uint64_t origin) {
+    if (turtle->builder != NULL) {
+        turtle->builder->maker = fr_lhead_mark(head);
+        turtle->builder->module = origin;
+    }
+}
+
 // ---- moving -----------------------------------------------------------------------------------
 
 static void close_segment(FrLturtle *turtle) {
@@ -119,7 +127,8 @@ static inline float length_of(const FrLpose *pose, const uint32_t *module) {
     return fabsf(length) <= MOST_LENGTH ? length : 0;
 }
 
-static inline void advance(FrLturtle *turtle, double length, bool adds_points) {
+static inline void advance(FrLturtle *turtle, double length, bool adds_points, uint32_t head,
+                           uint64_t origin) {
     FrLpose *pose = &turtle->pose;
     for (int k = 0; k < 4; k++) {
         pose->position[k] += length * pose->heading[k];
@@ -132,6 +141,7 @@ static inline void advance(FrLturtle *turtle, double length, bool adds_points) {
         fr_lturtle_corner(turtle);
     }
     if (adds_points && pose->spline == 1) {
+        note_maker(turtle, head, origin);
         fr_lspline_point(turtle, 0);
     }
 }
@@ -149,25 +159,27 @@ static inline void draw(FrLturtle *turtle, const uint32_t *module, char symbol, 
     memcpy(segment->left, pose->left, sizeof segment->left);
     segment->start_width = pose->width;
     segment->module = origin;
+    segment->maker = fr_lhead_mark(*module);
     segment->colour = pose->colour;
     segment->is_backward = length < 0;
+    segment->length = fabs((double)length);
     turtle->has_segment = true;
-    advance(turtle, (double)length, symbol == 'F');
+    advance(turtle, (double)length, symbol == 'F', *module, origin);
     if (turtle->keeps_all) {
         memcpy(pose->last_heading, pose->heading, sizeof pose->last_heading);
         memcpy(pose->last_up, pose->up, sizeof pose->last_up);
     }
 }
 
-static void jump(FrLturtle *turtle, const uint32_t *module, char symbol) {
+static void jump(FrLturtle *turtle, const uint32_t *module, char symbol, uint64_t origin) {
     FrLpose *pose = &turtle->pose;
     if (turtle->view->tropisms->len > 0) {
         fr_lturtle_bend(turtle);
     }
     end_node(turtle);
     float length = length_of(pose, module);
-    pose->stand.is_at_tip &= length == 0;
-    advance(turtle, (double)length, symbol == 'f');
+    pose->stand &= length == 0 ? ~UINT64_C(0) : ~FR_LSTAND_TIP;
+    advance(turtle, (double)length, symbol == 'f', *module, origin);
 }
 
 // ---- symbols ----------------------------------------------------------------------------------
@@ -189,9 +201,12 @@ static void change_colour(FrLturtle *turtle, const uint32_t *module, int sign) {
 static inline void copy_pose(FrLpose *to, const FrLpose *from, bool keeps_all) {
     if (keeps_all) {
         *to = *from;
-    } else {
-        memcpy(to, from, offsetof(FrLpose, last_heading));
+        return;
     }
+    memcpy(to, from, offsetof(FrLpose, stand));
+    // One by one: a load of both would wait for the last store to either.
+    *(volatile FrLstand *)&to->stand = from->stand;
+    *(volatile float *)&to->width = from->width;
 }
 
 static void push(FrLturtle *turtle) {
@@ -209,7 +224,7 @@ static void push(FrLturtle *turtle) {
     if (turtle->pose.spline != 0) {
         fr_lspline_push(turtle);
     }
-    turtle->pose.stand.is_lateral = true;
+    turtle->pose.stand |= FR_LSTAND_LATERAL;
 }
 
 static void pop(FrLturtle *turtle) {
@@ -251,7 +266,8 @@ static void end_call(FrLturtle *turtle) {
 }
 
 /// Symbols that neither move, turn nor branch.
-static void obey_other(FrLturtle *turtle, char symbol, const uint32_t *module) {
+static void obey_other(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_t origin) {
+    note_maker(turtle, *module, origin);
     switch (symbol) {
     case '{':
         fr_lturtle_open_shape(turtle, module);
@@ -300,11 +316,12 @@ static void obey_other(FrLturtle *turtle, char symbol, const uint32_t *module) {
 }
 
 /// A symbol that places something of another engine.
-static bool place(FrLturtle *turtle, char symbol, const uint32_t *module) {
+static bool place(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_t origin) {
     if (strchr(turtle->builder->sites, symbol) == NULL) {
         return false;
     }
     end_node(turtle);
+    note_maker(turtle, *module, origin);
     fr_lbuilder_site(turtle->builder, &turtle->pose, symbol,
                      fr_lturtle_value(module, 0, 1) * (double)turtle->pose.scale);
     turtle->status = MAX(turtle->status, turtle->builder->status);
@@ -314,7 +331,7 @@ static bool place(FrLturtle *turtle, char symbol, const uint32_t *module) {
 static inline __attribute__((always_inline)) void obey(FrLturtle *turtle, char symbol,
                                                        const uint32_t *module, uint64_t origin) {
     FrLpose *pose = &turtle->pose;
-    if (turtle->has_sites && place(turtle, symbol, module)) {
+    if (turtle->has_sites && place(turtle, symbol, module, origin)) {
         return;
     }
     switch (symbol) {
@@ -324,7 +341,7 @@ static inline __attribute__((always_inline)) void obey(FrLturtle *turtle, char s
         break;
     case 'f':
     case 'g':
-        jump(turtle, module, symbol);
+        jump(turtle, module, symbol, origin);
         break;
     case '+':
         turn(turtle, module, pose->heading, pose->left, 1);
@@ -361,7 +378,7 @@ static inline __attribute__((always_inline)) void obey(FrLturtle *turtle, char s
         pop(turtle);
         break;
     default:
-        obey_other(turtle, symbol, module);
+        obey_other(turtle, symbol, module, origin);
     }
 }
 
@@ -377,6 +394,7 @@ static G_GNUC_NO_INLINE void obey_rest(FrLturtle *turtle, char symbol, const uin
             return;
         }
     }
+    note_maker(turtle, *module, origin);
     if (turtle->qualifier != 0) {
         fr_lturtle_qualified(turtle, symbol, module);
     } else if (turtle->prefix == '@') {

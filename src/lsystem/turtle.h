@@ -9,22 +9,27 @@
 
 #define FR_LTROPISMS 10
 
-/// Where in the plant something begins.
-typedef struct FrLstand {
-    uint32_t node;   ///< FR_NONE: on the ground
-    bool is_at_tip;  ///< no jump since that node ended
-    bool is_lateral; ///< the next segment begins an axis
-} FrLstand;
+/// Where in the plant something begins: a node (FR_NONE: on the ground) and marks above it. One
+/// word, because what is written in pieces and read as one soon after stalls the processor.
+typedef uint64_t FrLstand;
+#define FR_LSTAND_NODE UINT64_C(0xFFFFFFFF)
+#define FR_LSTAND_TIP (UINT64_C(1) << 32)     ///< no jump since that node ended
+#define FR_LSTAND_LATERAL (UINT64_C(1) << 33) ///< the next segment begins an axis
+static inline uint32_t fr_lstand_node(FrLstand stand) {
+    return (uint32_t)stand;
+}
 
 /// The turtle's state, in the precision of cpfg. What comes behind `last_heading` is only kept
 /// over brackets where the string may change it.
 typedef struct FrLpose {
-    double position[4], heading[4], left[4], up[4]; ///< fourths are 0: pairs compute faster
-    float width, scale;
+    /// Fourths are 0: pairs compute faster, and none lies in two lines of the cache.
+    _Alignas(16) double position[4], heading[4], left[4], up[4];
+    float scale;
     float elasticity; ///< of the old tropism
     int32_t colour;
-    FrLstand stand;
-    uint8_t spline; ///< 1: F and f add control points, 2: only @Gc and @Ge do, 0: there is none
+    int32_t spline; ///< 1: F and f add control points, 2: only @Gc and @Ge do, 0: there is none
+    FrLstand stand; ///< from here to `last_heading`: what nearly every segment changes
+    float width;
     double last_heading[3], last_up[3]; ///< of the segment before
     double elasticities[FR_LTROPISMS];
     float arrive, leave;         ///< tangent factors of generalized cylinders
@@ -36,9 +41,11 @@ typedef struct FrLpose {
 
 /// What a segment is drawn with.
 typedef struct FrLsegment {
-    double start[3], end[3], heading[3], left[3];
+    _Alignas(16) double start[4], end[4], heading[4], left[4];
+    double length;
     float start_width, end_width;
     uint64_t module;
+    uint32_t maker; ///< mark of its head
     int32_t colour;
     bool is_backward; ///< its length was negative
 } FrLsegment;

@@ -49,7 +49,7 @@ static void set_position(FrLturtle *turtle, const uint32_t *module) {
         double value = fr_lturtle_value(module, k, 0);
         pose->position[k] = isfinite(value) ? CLAMP(value, -1e12, 1e12) : 0;
     }
-    pose->stand.is_at_tip = false;
+    pose->stand &= ~FR_LSTAND_TIP;
     turtle->is_moved = true;
     fr_lturtle_end_node(turtle);
 }

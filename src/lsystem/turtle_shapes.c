@@ -11,8 +11,8 @@ void fr_lturtle_corner(FrLturtle *turtle) {
         return;
     }
     if (turtle->corners->len >= MOST_CORNERS) {
-        turtle->status = fr_limit_check(turtle->corners->len + UINT64_C(1), MOST_CORNERS, "corners",
-                                        "an open polygon", (FrSpan){0}, turtle->context->diags);
+        turtle->status = fr_lbuilder_limit(turtle->builder, turtle->corners->len + UINT64_C(1),
+                                           MOST_CORNERS, "corners", "an open polygon");
         return;
     }
     g_array_append_vals(turtle->corners, turtle->pose.position, 1);
@@ -65,7 +65,7 @@ static void leave_surface(FrLturtle *turtle, const FrLsurface *surface, double s
         double to = pose->position[k] + surface->end[0] * scale * pose->left[k] +
                     surface->end[1] * scale * pose->heading[k] +
                     surface->end[2] * scale * pose->up[k];
-        pose->stand.is_at_tip &= surface->end[k] == 0;
+        pose->stand &= surface->end[k] == 0 ? ~UINT64_C(0) : ~FR_LSTAND_TIP;
         pose->position[k] = surface->is_mesh  ? pose->position[k]
                             : fabs(to) < 1e12 ? (double)(float)to
                                               : 0;

@@ -26,6 +26,10 @@ double fr_lmachine_binary(FrLop op, double a, double b, bool *is_fault) {
     }
     case FR_LOP_POWER:
         return pow(a, b);
+    case FR_LOP_AND:
+        return a != 0 && b != 0;
+    case FR_LOP_OR:
+        return a != 0 || b != 0;
     case FR_LOP_LESS:
         return a < b;
     case FR_LOP_LESS_EQUAL:
@@ -129,6 +133,15 @@ static void operate(FrLmachine *machine, const FrLcode *code, double *top, uint3
     }
 }
 
+/// A parameter as it is kept. What is no finite number is told once.
+static inline uint32_t put(FrLmachine *machine, double value, uint32_t place) {
+    uint32_t word = fr_lword(value);
+    if ((word & 0x7F800000) == 0x7F800000 && word != FR_LOPEN) {
+        fr_lmachine_fault(machine, "no-number", place);
+    }
+    return word;
+}
+
 // One function because it is one loop over the code: the cases share its registers.
 double fr_lmachine_run(FrLmachine *machine, uint32_t start) {
     const FrLcode *base = (const FrLcode *)(const void *)machine->system->code->data;
@@ -150,7 +163,7 @@ double fr_lmachine_run(FrLmachine *machine, uint32_t start) {
             variables[code->a] = *--top;
             break;
         case FR_LOP_PUT:
-            machine->out[code->a] = fr_lword(*--top);
+            machine->out[code->a] = put(machine, *--top, place);
             break;
         case FR_LOP_VAR_MULTIPLY:
             top[-1] *= variables[code->a];
@@ -173,6 +186,8 @@ double fr_lmachine_run(FrLmachine *machine, uint32_t start) {
         case FR_LOP_DIVIDE:
         case FR_LOP_MODULO:
         case FR_LOP_POWER:
+        case FR_LOP_AND:
+        case FR_LOP_OR:
         case FR_LOP_LESS:
         case FR_LOP_LESS_EQUAL:
         case FR_LOP_GREATER:
@@ -208,6 +223,9 @@ double fr_lmachine_run(FrLmachine *machine, uint32_t start) {
             break;
         case FR_LOP_JUMP_ZERO:
             code = *--top == 0 ? base + code->a - 1 : code;
+            break;
+        case FR_LOP_JUMP_TRUE:
+            code = (whole(top[-1]) & 0xFF) != 0 ? base + code->a - 1 : code;
             break;
         case FR_LOP_INDEX:
             top -= code->n;

@@ -15,6 +15,7 @@ typedef struct FrLfault {
 
 #define FR_LFAULTS 32
 #define FR_LPLACE_PRODUCTION UINT32_C(0x80000000)
+#define FR_LPLACE_AXIOM UINT32_C(0x7FFFFFFF)
 
 typedef struct FrLrandom {
     uint64_t state; ///< 48 bits

@@ -2,6 +2,8 @@
 // effect, modules with a number of parameters that no production knows.
 #include "lsystem/warn.h"
 
+#include <math.h>
+
 /// How many parameters the predecessors of each symbol have: bit n for n of them.
 typedef struct Warner {
     const FrLsystem *system;
@@ -48,6 +50,17 @@ static void check_count(Warner *warner, uint32_t head, FrSpan span) {
                  (char)symbol, count, count == 1 ? "" : "s", least);
 }
 
+/// Whether a call leads nowhere: to a label that nobody has, or where there is only one L-system.
+static bool is_lost(const Warner *warner, uint32_t head) {
+    const GPtrArray *units = warner->system->units;
+    double id = fr_lword_float(g_array_index(warner->system->words, uint32_t, head + 1));
+    bool is_lost = id != 0 || units->len == 1; // 0 may wait for what an expression gives
+    for (guint u = 0; u < units->len && units->len > 1; u++) {
+        is_lost &= (double)((const FrLunit *)g_ptr_array_index(units, u))->id != trunc(id);
+    }
+    return is_lost && !warner->system->is_paper;
+}
+
 static void check_template(Warner *warner, uint32_t first, uint32_t count, FrSpan span) {
     char before = '\0', before_that = '\0';
     for (uint32_t at = 0; at < count;) {
@@ -59,6 +72,10 @@ static void check_template(Warner *warner, uint32_t first, uint32_t count, FrSpa
         }
         if (what != NULL && g_hash_table_add(warner->told, (gpointer)what)) {
             fr_diags_add(warner->diags, FR_WARNING, "left-out", span, "%s", what);
+        }
+        if (fr_lhead_calls(head) && is_lost(warner, first + at)) {
+            fr_diags_add(warner->diags, FR_WARNING, "unknown-call", span,
+                         "there is no L-system of that label; the call does nothing");
         }
         bool is_raw = before == '@' || before == '~' || before == '?' || before_that == '@';
         if (g_ascii_isalpha(symbol) && !is_raw) {

@@ -1,6 +1,7 @@
 #include "plant/columns.h"
 
 #include <cglm/struct.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 
@@ -49,15 +50,17 @@ static FrTableHead *head_of(void *table) {
 }
 
 // Large columns on large pages: filling them then costs a few page faults instead of thousands.
-// What realloc() moves does not get them, so it is copied.
+// They begin with such a page, and their last small pages stay small. What realloc() moves does not
+// get them, so it is copied.
 static void *grow(void *old, size_t used, size_t size) {
-    if (size < 2 * LARGE_PAGE) {
+    if (size < LARGE_PAGE) {
         return g_realloc(old, size);
     }
-    char *data = g_malloc(size);
-    uintptr_t begin = ((uintptr_t)data + LARGE_PAGE - 1) & ~(uintptr_t)(LARGE_PAGE - 1);
-    uintptr_t end = ((uintptr_t)data + size) & ~(uintptr_t)(LARGE_PAGE - 1);
-    madvise((void *)begin, end - begin, MADV_HUGEPAGE); // where it is refused, small ones do
+    void *data = NULL;
+    if (posix_memalign(&data, LARGE_PAGE, size) != 0) {
+        return g_realloc(old, size); // which ends the program where there is no memory
+    }
+    madvise(data, size & ~(LARGE_PAGE - 1), MADV_HUGEPAGE); // where it is refused, small ones do
     if (used > 0) {
         memcpy(data, old, used);
     }

@@ -1,8 +1,20 @@
 /// One plant built by the engine of its definition.
 #include "scene/grow.h"
+
 #include "scene/find.h"
 
 #include <math.h>
+
+uint64_t *fr_scene_count_made(const FrPlant *plant) {
+    uint64_t *made = g_new0(uint64_t, plant->components->len + 1);
+    for (uint32_t node = 0; node < plant->nodes.count; node++) {
+        made[plant->axes.component[plant->nodes.axis[node]]]++;
+    }
+    for (uint32_t organ = 0; organ < plant->organs.count; organ++) {
+        made[plant->organs.component[organ]]++;
+    }
+    return made;
+}
 
 static FrStatus grow_lsystem(const FrPlantDef *definition, int64_t seed, const FrContext *context,
                              FrScenePlant *made) {
@@ -13,7 +25,7 @@ static FrStatus grow_lsystem(const FrPlantDef *definition, int64_t seed, const F
     if (status == FR_OK) {
         g_free(made->plant->name);
         made->plant->name = g_strdup(definition->id);
-        made->by_component = g_new0(uint64_t, made->plant->components->len + 1);
+        made->by_component = fr_scene_count_made(made->plant);
     }
     return status;
 }

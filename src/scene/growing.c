@@ -4,6 +4,8 @@
 /// answered, and the productions applied.
 #include "scene/growing.h"
 
+#include "scene/grow.h"
+
 #include <cglm/struct.h>
 
 /// One plant.
@@ -255,7 +257,7 @@ static FrStatus finish(FrGrowing *growing, FrScene *scene, const FrContext *cont
     for (guint i = 0; i < growing->sprouts->len; i++) {
         const Sprout *sprout = g_ptr_array_index(growing->sprouts, i);
         FrScenePlant *plant = &g_array_index(scene->plants, FrScenePlant, sprout->plant);
-        plant->by_component = g_new0(uint64_t, plant->plant->components->len + 1);
+        plant->by_component = fr_scene_count_made(plant->plant);
     }
     scene->light = fr_lighting_stats(growing->lighting);
     return status;

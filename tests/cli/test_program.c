@@ -90,6 +90,11 @@ static const Command commands[] = {
     {"derive $S/examples/lsystems/monopodial.l --steps 2 --set r1=0.5", 0, "*0.5*", ""},
     {"info $S/examples/lsystems/bush.l --steps 2", 0, "*modules*axes*", ""},
     {"check $S/examples/lsystems/bush.l", 0, "", ""},
+    {"info $S/examples/lsystems/signal.l", 0, "*production*drawn*", ""},
+    {"build $S/examples/lsystems/bush.l --time 3", 2, "", "frond: --time is for components*"},
+    {"render $S/examples/lsystems/koch.l --frames 0..2 -o koch.png --size 16x16 --samples 1 -q", 0,
+     "", ""},
+    {"build $S/examples/lsystems/koch.l --stats -", 0, "*\"by_production\": {*", ""},
     {"schema", 0, "<?xml*<xs:schema*name=\"phiball\"*</xs:schema>\n", ""},
     {"reference", 0, "# The `.frond` document*## `<phiball>`*", ""},
 };

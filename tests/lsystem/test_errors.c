@@ -33,6 +33,32 @@ static const Kind kinds[] = {
      "limit-modules", 4, 1, "100000"},
     {HEAD "A(x) : { while (1) { x = x; } } 1 --> A(x)\nendlsystem\n", 1, FR_ERR_LIMIT,
      "limit-iterations", 4, 17, "the loop at step 1, module 1"},
+    {HEAD "A(x) --> A(x)A(x)A(x)A(x)A(x)A(x)A(x)A(x)\nendlsystem\n", 30, FR_ERR_LIMIT,
+     "limit-modules", 4, 1, "(step 6, module 12501)"},
+    {HEAD "A(x) : {n = 1;} 1 --> A(x)A(x)A(x)A(x)A(x)A(x)A(x)A(x)\nendlsystem\n", 30, FR_ERR_LIMIT,
+     "limit-modules", 4, 1, "(step 6, module 12501)"},
+    {HEAD "A(x) --> A(x)A(x)A(x)\ndecomposition\nmaximum depth: 40\nA(x) --> A(x)A(x)\n"
+          "endlsystem\n",
+     1, FR_ERR_LIMIT, "limit-modules", 7, 1, "(step 1, module 1)"},
+    {HEAD "A(x) --> A(x)\ndecomposition\nmaximum depth: 1000000000\nB --> B\nendlsystem\n", 1,
+     FR_ERR_LIMIT, "limit-depth", 6, 16, "asks for 1000000000"},
+    {"Lsystem: 1\nderivation length: 3000000000\naxiom: A\nA --> A\nendlsystem\n", 0, FR_ERR_LIMIT,
+     "limit-steps", 2, 20, "3000000000"},
+    {HEAD "A(x) --> A(exp(x*1000))\nendlsystem\n", 2, FR_OK, "no-number", 4, 12,
+     "(step 1, module 1)"},
+    {HEAD "A(x) --> A(x)?(5,1)F$\nendlsystem\n", 0, FR_OK, "unknown-call", 4, 1, "does nothing"},
+    {HEAD "A(x) --> A(x)?(x+4,1)F$\nendlsystem\nLsystem: 2\naxiom: F\nF --> F\nendlsystem\n", 2,
+     FR_OK, "unknown-call", 4, 1, "(step 2, module 2)"},
+    {HEAD "B --> B\nA(x) --> ?(2)A(x)$\nendlsystem\nLsystem: 2\naxiom: F\nF --> F\n"
+          "A(x) --> ?(2)F$\nendlsystem\n",
+     3, FR_OK, "recursive-call", 10, 1, "cannot call itself"},
+    {HEAD "A(x) --> A(x)\nendlsystem\nLsystem: 2\naxiom: F\nF --> F\nendlsystem\n"
+          "Lsystem: 2\naxiom: F\nF --> F\nendlsystem\n",
+     0, FR_OK, "duplicate-label", 10, 10, "2 already"},
+    {"w : F\nbrackets: round\np1 : F -> F(+F)F\n", 0, FR_ERR_DOCUMENT, "syntax", 2, 1,
+     "before the axiom"},
+    {"Lsystem 1\naxiom: A\nA --> A\nendlsystem\n", 0, FR_ERR_DOCUMENT, "syntax", 1, 1,
+     "begins with 'Lsystem:'"},
     {"a(i) = i+i\nb(i) = a(a(a(a(i))))\nc(i) = b(b(b(b(b(b(b(b(i))))))))\n"
      "d(i) = c(c(c(c(c(c(c(c(i))))))))\ne(i) = d(d(d(d(d(d(d(d(i))))))))\n"
      "g(i) = e(e(e(e(e(e(e(e(i))))))))\nw : A\np1 : A -> B(g(1))\n",
@@ -101,6 +127,69 @@ static void many(void) {
     fr_diags_free(context.diags);
 }
 
+/// How many errors there are in a text that is not one of ours.
+static void check_error_count(const char *text, guint count) {
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    FrSource *source = fr_source_new("test.l", text, strlen(text));
+    FrLoptions options = {.notation = FR_LNOTATION_CPFG};
+    FrLsystem *system;
+    g_assert_cmpint(fr_lsystem_compile(source, &options, &context, &system), ==, FR_ERR_DOCUMENT);
+    g_assert_cmpuint(fr_diags_error_count(context.diags), ==, count);
+    fr_source_unref(source);
+    fr_diags_free(context.diags);
+}
+
+static void once(void) {
+    check_error_count("Lsystem 1\naxiom: A\nA --> A\nB --> B\nendlsystem\n", 1);
+    check_error_count("axiom: A\nA --> A\nB --> B\nendlsystem\n", 1);
+}
+
+static void formals(void) {
+    GString *text = g_string_new("Lsystem: 1\naxiom: A\nA(x0");
+    for (int i = 1; i < 256; i++) {
+        g_string_append_printf(text, ",x%d", i);
+    }
+    g_string_append(text, ") --> A\nendlsystem\n");
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    FrSource *source = fr_source_new("test.l", text->str, text->len);
+    FrLsystem *system;
+    g_assert_cmpint(fr_lsystem_compile(source, NULL, &context, &system), ==, FR_ERR_DOCUMENT);
+    g_assert_nonnull(find(context.diags, "too-many-parameters"));
+    g_assert_cmpuint(fr_diags_error_count(context.diags), ==, 1);
+    fr_source_unref(source);
+    fr_diags_free(context.diags);
+    g_string_free(text, TRUE);
+}
+
+/// Limits of the turtle name the production that drew what is too much.
+static void drawing(void) {
+    const char text[] = "w : A\np1 : A -> F[+F]A@O(1)\n";
+    const struct {
+        const char *code;
+        uint64_t nodes, organs;
+        const char *says;
+    } cases[] = {{"limit-nodes", 3, 100, "p1 (step 4, module 9) asks for 4"},
+                 {"limit-organs", 100, 2, "p1 (step 4, module 27) asks for 3"}};
+    for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+        Derived d = begin(text, 1);
+        FrPlant *plant;
+        step(&d, 4);
+        d.context.limits.nodes = cases[i].nodes;
+        d.context.limits.organs = cases[i].organs;
+        g_assert_cmpint(fr_lderivation_plant(d.derivation, &d.context, &plant, NULL), ==,
+                        FR_ERR_LIMIT);
+        const FrDiag *diag = find(d.context.diags, cases[i].code);
+        g_assert_nonnull(diag);
+        g_assert_nonnull(strstr(diag->text, cases[i].says));
+        uint32_t line, column;
+        fr_source_position(diag->span.source, diag->span.begin, &line, &column);
+        g_assert_cmpuint(line, ==, 2);
+        end(&d);
+    }
+}
+
 static void counters(void) {
     FrContext context = fr_context_default();
     context.diags = fr_diags_new();
@@ -120,5 +209,8 @@ int main(int argc, char **argv) {
                     all_kinds);
     g_test_add_func("/lsystem/errors/one run tells of many", many);
     g_test_add_func("/lsystem/errors/a variable that counts itself is known", counters);
+    g_test_add_func("/lsystem/errors/what is no L-system is told once", once);
+    g_test_add_func("/lsystem/errors/too many formals are told as such", formals);
+    g_test_add_func("/lsystem/errors/limits of drawing name production, step, module", drawing);
     return g_test_run();
 }

@@ -267,6 +267,27 @@ static void test_stochastic_threads(void) {
     }
 }
 
+// What cpfg's evaluator gives: behind a number or a name both sides of && and || are computed, so
+// that both draw; what a computed left side decides is its own value where its last byte is not 0.
+static void test_truth(void) {
+    check_cpfg("", "A(5)", "A(x) --> B(x || 0, (x+1) || 0, (x/20) || 0, (x+251) || 0)", 1,
+               "B(1,6,1,1)");
+    check_cpfg("", "A(5)", "A(x) --> B(x && 3, 0 && x, (x-5) && 3, !(x && x))", 1, "B(1,0,0,0)");
+    // 0.0416303 and 0.454492 are the second and third number of srand(1).
+    const char *draws = "A(x) : {srand(1); n = %s; y = ran(1);} 1 --> B(y)";
+    const struct {
+        const char *left, *expected;
+    } cases[] = {{"x && ran(1)", "B(0.454492)"},
+                 {"(x+0) && ran(1)", "B(0.0416303)"},
+                 {"1 || ran(1)", "B(0.454492)"},
+                 {"(x+1) || ran(1)", "B(0.0416303)"}};
+    for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+        char *production = g_strdup_printf(draws, cases[i].left);
+        check_cpfg("", "A(0)", production, 1, cases[i].expected);
+        g_free(production);
+    }
+}
+
 static void test_paper(void) {
     CHECK_STEPS("w : AI(0.5)W(0)\nf(i) = 2*i\np1 : A -> FA : 1\np2 : I(i) < W(0) -> W(fi)\n",
                 "AI(0.5)W(0)", "FAI(0.5)W(1)", "FFAI(0.5)W(1)");
@@ -293,6 +314,7 @@ int main(int argc, char **argv) {
         {"the left context is bound last and formals hide globals", test_formals},
         {"variables of a production keep their values", test_static_locals},
         {"blocks run as in cpfg", test_blocks},
+        {"truth has the values of cpfg", test_truth},
         {"arrays are filled and their indices clamped", test_arrays},
         {"right contexts skip branches as published", test_right_context},
         {"left contexts lead to the root", test_left_context},
