@@ -13,6 +13,7 @@
 #pragma once
 
 #include "frond/light.h"
+#include "frond/particles.h"
 #include "frond/species.h"
 
 /// A `<growth>`: the world that plants grow in.
@@ -53,14 +54,6 @@ typedef struct FrGrowthObstacle {
     uint32_t index_count;
     bool is_ground; ///< the first internode of a plant grows through it
 } FrGrowthObstacle;
-
-/// Something that buds grow towards.
-typedef struct FrParticle {
-    vec3s at;        ///< where it is, or, with w = 0, the direction in which it lies
-    float w;         ///< 1 a place, 0 a direction at infinity
-    float influence; ///< m; 0: that of the species
-    float kill;      ///< m; < 0: that of the species
-} FrParticle;
 
 /// Everything that a growth stands on. Copied; what it points to is copied too where it is not
 /// said to be borrowed.

@@ -90,6 +90,7 @@
     /* wood */                                                                                     \
     X(REAL, tip_radius, "0.004", 0.00001, 1, "m", "", "of last internodes")                        \
     X(REAL, pipe_exponent, "2.3", 1, 4, "", "", "of radii at forks; 2 keeps areas")                \
+    X(REAL, taper, "0.15", 0, 10, "", "", "tips' worth of wood that each internode adds")          \
     X(SWITCH, smooth, "yes", 0, 1, "", "", "axes are drawn as splines through their nodes")        \
     X(TEXT, bark, "", 0, 0, "", "", "id of the material of wood")                                  \
     /* leaves */                                                                                   \

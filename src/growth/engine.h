@@ -58,8 +58,8 @@ typedef struct FrGrownAxis {
     uint16_t birth;       ///< step
     uint8_t row;          ///< order of the species it is built by
     uint8_t order;        ///< botanical
-    bool is_growing;      ///< has an apex
-    bool is_shed;
+    uint8_t is_growing;   ///< has an apex
+    uint8_t is_shed;
 } FrGrownAxis;
 
 /// Nodes of one plant, parents before children.
@@ -97,6 +97,30 @@ typedef struct FrReadySpecies {
     char *name;
 } FrReadySpecies;
 
+/// An obstacle's triangles.
+typedef struct FrGrownObstacle {
+    vec3s *positions;
+    uint32_t vertex_count;
+    uint32_t *indices;
+    uint32_t index_count;
+    bool is_ground;
+} FrGrownObstacle;
+
+/// A live bud where it stands, gathered from all plants for a phase of the step.
+typedef struct FrLiveBudAt {
+    FrLiveBud *bud;
+    const FrSpeciesParams *params;
+    vec3s world;
+    float influence; ///< m
+    float own_shade; ///< how far its own leaves reach, m
+} FrLiveBudAt;
+
+/// Bytes still to be read.
+typedef struct FrBytesReader {
+    const uint8_t *at;
+    size_t left;
+} FrBytesReader;
+
 /// Whose number an owner of voxels is.
 typedef struct FrOwner {
     uint32_t plant, axis;
@@ -110,6 +134,13 @@ struct FrGrowth {
     uint32_t species_count;
     vec3s up; ///< against gravity
     FrVoxels *voxels;
+    FrGrownObstacle *obstacles; ///< own copies
+    uint32_t obstacle_count;
+    vec3s *suns;
+    FrLight *light; ///< borrowed, NULL: that of the parameters
+    const FrLamp *lamps;
+    uint32_t lamp_count;
+    FrParticles *particles; ///< NULL: none
     FrGrownPlant *plants;
     uint32_t plant_count;
     FrOwner *owners; ///< by number in the voxels
@@ -120,8 +151,11 @@ struct FrGrowth {
     uint32_t *open;
     uint64_t *sort_keys;
     uint32_t proposal_capacity;
+    FrLiveBudAt *live; ///< all live buds, the growing ones first
+    uint32_t live_capacity;
     uint64_t step;
-    FrGrowthStats stats;
+    double seconds, light_seconds; ///< of the last step
+    GPtrArray *history;            ///< GBytes of states before steps, the last one last
 };
 
 static inline const FrReadySpecies *fr_species_of(const FrGrowth *growth,
@@ -133,6 +167,30 @@ static inline const FrOrderParams *fr_order_of(const FrReadySpecies *species, ui
     return &species->orders[MIN(row, species->order_count - 1)];
 }
 
+// ---- save.c -----------------------------------------------------------------------------------
+/// False if there is not so much left.
+bool fr_bytes_take(FrBytesReader *reader, void *into, size_t size);
+/// False also if the number is above `limit`.
+bool fr_bytes_take_count(FrBytesReader *reader, uint64_t limit, uint64_t *count);
+
+// ---- scatter.c, attract.c -----------------------------------------------------------------------
+void fr_growth_save_particles(const FrGrowth *growth, GByteArray *out);
+bool fr_growth_take_particles(FrGrowth *growth, FrBytesReader *reader);
+/// The particles all over the arena that the parameters ask for.
+FrStatus fr_growth_strew_particles(FrGrowth *growth, const FrContext *context);
+/// The particles that a new plant's envelope is filled with.
+void fr_growth_fill_envelope(const FrGrowth *growth, const FrGrownPlant *plant, GArray *particles);
+/// Kills what the new nodes of this step have reached.
+void fr_growth_reach_particles(FrGrowth *growth);
+/// Turns buds towards their particles.
+void fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+                       const FrContext *context);
+
+// ---- light.c, sky.c -----------------------------------------------------------------------------
+/// The light of all live buds, and where it is brightest.
+FrStatus fr_growth_light(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+                         const FrContext *context);
+
 // ---- species.c --------------------------------------------------------------------------------
 FrReadySpecies fr_species_make_ready(const FrSpecies *species);
 void fr_species_clear_ready(FrReadySpecies *ready);
@@ -143,11 +201,18 @@ uint32_t fr_grown_add_axis(FrGrownPlant *plant, uint32_t bearer, uint8_t row, Fr
 FrLiveBud *fr_grown_add_bud(FrGrownPlant *plant);
 void fr_grown_clear(FrGrownPlant *plant);
 FrDigest fr_grown_digest(const FrGrownPlant *plant);
+void fr_grown_reserve(FrGrownPlant *plant, uint32_t nodes, uint32_t axes, uint32_t buds);
 uint64_t fr_grown_bytes(const FrGrownPlant *plant);
 
 // ---- growth.c ---------------------------------------------------------------------------------
-/// Counts anew what there is.
-void fr_growth_count(FrGrowth *growth);
+/// Where a bud stands.
+vec3s fr_bud_world(const FrGrownPlant *plant, const FrLiveBud *bud);
+/// Frees plants, voxels and particles.
+void fr_growth_drop_state(FrGrowth *growth);
+/// Stands the obstacles in the voxels.
+FrStatus fr_growth_stand_obstacles(FrGrowth *growth, const FrContext *context);
+/// Room for so many owners of voxels.
+void fr_growth_reserve_owners(FrGrowth *growth, uint32_t count);
 /// True if a node bears leaves now.
 bool fr_grown_is_leafy(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t node);
 
@@ -165,6 +230,13 @@ void fr_growth_sprout(const FrGrowth *growth, FrGrownPlant *plant, uint32_t inde
 void fr_growth_wake_bud(FrGrownPlant *plant, FrLiveBud *bud, uint64_t step);
 /// Ages all buds and wakes those that may.
 void fr_growth_wake(const FrGrowth *growth, FrGrownPlant *plant);
+
+// ---- pipe.c -----------------------------------------------------------------------------------
+/// Wood of each node in tips: r^e over that of a tip.
+void fr_growth_pipes(const FrGrownPlant *plant, double taper, double *pipes);
+/// Radii of so much wood, m.
+void fr_growth_radii(const FrReadySpecies *species, const double *pipes, uint32_t count,
+                     float *radii);
 
 // ---- envelope.c -------------------------------------------------------------------------------
 /// True if a place, relative to the seed, is within the species' envelope.

@@ -39,15 +39,23 @@ static void drop_species(FrGrowth *growth) {
     g_free(growth->species);
 }
 
+static void drop_obstacles(FrGrowth *growth) {
+    for (uint32_t i = 0; i < growth->obstacle_count; i++) {
+        g_free(growth->obstacles[i].positions);
+        g_free(growth->obstacles[i].indices);
+    }
+    g_free(growth->obstacles);
+    g_free(growth->suns);
+}
+
 /// Obstacles are solid: their surface, and what it encloses within the arena.
-static FrStatus take_obstacles(FrGrowth *growth, const FrGrowthSetup *setup,
-                               const FrContext *context) {
+FrStatus fr_growth_stand_obstacles(FrGrowth *growth, const FrContext *context) {
     double end[3];
     for (int axis = 0; axis < 3; axis++) {
-        end[axis] = (double)setup->params.max.raw[axis];
+        end[axis] = (double)growth->params.max.raw[axis];
     }
-    for (uint32_t i = 0; i < setup->obstacle_count; i++) {
-        const FrGrowthObstacle *obstacle = &setup->obstacles[i];
+    for (uint32_t i = 0; i < growth->obstacle_count; i++) {
+        const FrGrownObstacle *obstacle = &growth->obstacles[i];
         fr_voxels_add_triangles(growth->voxels, obstacle->positions, obstacle->indices,
                                 obstacle->index_count, obstacle->is_ground);
         if (!fr_voxels_fill(growth->voxels, obstacle->positions, obstacle->indices,
@@ -64,6 +72,35 @@ static FrStatus take_obstacles(FrGrowth *growth, const FrGrowthSetup *setup,
     return FR_OK;
 }
 
+static void take_obstacles(FrGrowth *growth, const FrGrowthSetup *setup) {
+    growth->obstacle_count = setup->obstacle_count;
+    growth->obstacles = g_new(FrGrownObstacle, setup->obstacle_count);
+    for (uint32_t i = 0; i < setup->obstacle_count; i++) {
+        const FrGrowthObstacle *from = &setup->obstacles[i];
+        growth->obstacles[i] = (FrGrownObstacle){
+            .positions = g_memdup2(from->positions, from->vertex_count * sizeof(vec3s)),
+            .vertex_count = from->vertex_count,
+            .indices = g_memdup2(from->indices, from->index_count * sizeof(uint32_t)),
+            .index_count = from->index_count,
+            .is_ground = from->is_ground};
+    }
+}
+
+/// Copies what the setup says and stands the obstacles.
+static FrStatus take_setup(FrGrowth *growth, const FrGrowthSetup *setup, const FrContext *context) {
+    growth->params = setup->params;
+    growth->up = up_of(&setup->params);
+    growth->light = setup->light;
+    growth->lamps = setup->lamps;
+    growth->lamp_count = setup->lamp_count;
+    growth->suns = setup->suns == NULL
+                       ? NULL
+                       : g_memdup2(setup->suns, (size_t)setup->params.suns * sizeof(vec3s));
+    take_species(growth, setup);
+    take_obstacles(growth, setup);
+    return fr_growth_stand_obstacles(growth, context);
+}
+
 FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context, FrGrowth **growth) {
     *growth = NULL;
     FrStatus status = check_setup(setup, context);
@@ -71,15 +108,16 @@ FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context, FrG
         return status;
     }
     FrGrowth *made = g_new0(FrGrowth, 1);
-    made->params = setup->params;
-    made->up = up_of(&setup->params);
-    take_species(made, setup);
+    made->history = g_ptr_array_new_with_free_func((GDestroyNotify)g_bytes_unref);
     double origin[3];
     for (int axis = 0; axis < 3; axis++) {
         origin[axis] = (double)setup->params.min.raw[axis];
     }
     made->voxels = fr_voxels_new(origin, setup->params.cell);
-    status = take_obstacles(made, setup, context);
+    status = take_setup(made, setup, context);
+    if (status == FR_OK) {
+        status = fr_growth_strew_particles(made, context);
+    }
     if (status != FR_OK) {
         fr_growth_free(made);
         return status;
@@ -88,21 +126,29 @@ FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context, FrG
     return FR_OK;
 }
 
+void fr_growth_drop_state(FrGrowth *growth) {
+    for (uint32_t i = 0; i < growth->plant_count; i++) {
+        fr_grown_clear(&growth->plants[i]);
+    }
+    fr_voxels_free(growth->voxels);
+    fr_particles_free(growth->particles);
+    g_free(growth->plants);
+    g_free(growth->owners);
+}
+
 void fr_growth_free(FrGrowth *growth) {
     if (growth == NULL) {
         return;
     }
-    for (uint32_t i = 0; i < growth->plant_count; i++) {
-        fr_grown_clear(&growth->plants[i]);
-    }
+    fr_growth_drop_state(growth);
     drop_species(growth);
-    fr_voxels_free(growth->voxels);
-    g_free(growth->plants);
-    g_free(growth->owners);
+    drop_obstacles(growth);
     g_free(growth->proposals);
     g_free(growth->by_rank);
     g_free(growth->open);
     g_free(growth->sort_keys);
+    g_free(growth->live);
+    g_ptr_array_free(growth->history, TRUE);
     g_free(growth);
 }
 
@@ -113,12 +159,28 @@ FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup, const Fr
     }
     FR_ASSERT(setup->species_count == growth->species_count);
     FR_ASSERT(setup->params.cell == growth->params.cell);
-    growth->params = setup->params;
-    growth->up = up_of(&setup->params);
-    drop_species(growth);
-    take_species(growth, setup);
+    FrGrowth old = *growth;
     fr_voxels_clear_solid(growth->voxels);
-    return take_obstacles(growth, setup, context);
+    status = take_setup(growth, setup, context);
+    if (status != FR_OK) {
+        FrGrowth failed = *growth;
+        *growth = old;
+        old = failed;
+        fr_voxels_clear_solid(growth->voxels);
+        FrStatus again = fr_growth_stand_obstacles(growth, context);
+        FR_ASSERT(again == FR_OK); // they stood there before
+    }
+    drop_species(&old);
+    drop_obstacles(&old);
+    return status;
+}
+
+vec3s fr_bud_world(const FrGrownPlant *plant, const FrLiveBud *bud) {
+    vec3s at = bud->node == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[bud->node];
+    for (int axis = 0; axis < 3; axis++) {
+        at.raw[axis] = (float)(plant->seed.at[axis] + (double)at.raw[axis]);
+    }
+    return at;
 }
 
 /// The one bud that a plant begins with.
@@ -163,6 +225,7 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     memset(growth->plants + first, 0, count * sizeof *growth->plants);
     growth->plant_count += count;
     uint32_t left_out = 0;
+    GArray *particles = g_array_new(FALSE, FALSE, sizeof(FrParticle));
     for (uint32_t i = 0; i < count; i++) {
         FrGrownPlant *plant = &growth->plants[first + i];
         FR_ASSERT(seeds[i].species < growth->species_count);
@@ -171,15 +234,25 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
         left_out += plant->is_left_out;
         if (!plant->is_left_out) {
             begin_plant(growth, plant);
+            fr_growth_fill_envelope(growth, plant, particles);
         }
     }
+    status = fr_growth_add_particles(growth, (const FrParticle *)(void *)particles->data,
+                                     particles->len, context);
+    g_array_free(particles, TRUE);
     if (left_out > 0) {
         fr_diags_add(context->diags, FR_WARNING, "seed-place", (FrSpan){0},
                      "%u of %u seeds have no place to stand: outside the arena or in an obstacle",
                      left_out, count);
     }
-    fr_growth_count(growth);
-    return FR_OK;
+    return status;
+}
+
+void fr_growth_reserve_owners(FrGrowth *growth, uint32_t count) {
+    if (count > growth->owner_capacity) {
+        growth->owner_capacity = MAX(1024, count + count / 2);
+        growth->owners = g_renew(FrOwner, growth->owners, growth->owner_capacity);
+    }
 }
 
 bool fr_grown_is_leafy(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t node) {
@@ -212,20 +285,18 @@ static void count_plant(const FrGrowth *growth, const FrGrownPlant *plant, FrGro
     stats->bytes += fr_grown_bytes(plant);
 }
 
-void fr_growth_count(FrGrowth *growth) {
-    FrGrowthStats *stats = &growth->stats;
-    double seconds = stats->seconds, light_seconds = stats->light_seconds;
-    *stats = (FrGrowthStats){.step = growth->step,
-                             .seconds = seconds,
-                             .light_seconds = light_seconds,
-                             .cells = growth->voxels->bytes};
-    for (uint32_t i = 0; i < growth->plant_count; i++) {
-        count_plant(growth, &growth->plants[i], stats);
-    }
-}
-
 FrGrowthStats fr_growth_stats(const FrGrowth *growth) {
-    return growth->stats;
+    FrGrowthStats stats = {.step = growth->step,
+                           .seconds = growth->seconds,
+                           .light_seconds = growth->light_seconds,
+                           .cells = growth->voxels->bytes};
+    if (growth->particles != NULL) {
+        stats.particles = growth->particles->count - growth->particles->dead_count;
+    }
+    for (uint32_t i = 0; i < growth->plant_count; i++) {
+        count_plant(growth, &growth->plants[i], &stats);
+    }
+    return stats;
 }
 
 uint32_t fr_growth_plant_count(const FrGrowth *growth) {

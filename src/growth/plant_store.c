@@ -46,14 +46,14 @@ uint32_t fr_grown_add_axis(FrGrownPlant *plant, uint32_t bearer, uint8_t row, Fr
         plant->axes = g_renew(FrGrownAxis, plant->axes, plant->axis_capacity);
     }
     uint32_t order = bearer == FR_NONE ? 0 : plant->axes[plant->nodes.axis[bearer]].order + 1u;
-    plant->axes[plant->axis_count] = (FrGrownAxis){.key = key,
-                                                   .bearer = bearer,
-                                                   .first = FR_NONE,
-                                                   .last = FR_NONE,
-                                                   .owner = FR_NONE,
-                                                   .row = row,
-                                                   .order = (uint8_t)MIN(order, 255),
-                                                   .is_growing = true};
+    FrGrownAxis *axis = &plant->axes[plant->axis_count];
+    memset(axis, 0, sizeof *axis); // padding too: states are saved as they are
+    axis->key = key;
+    axis->bearer = bearer;
+    axis->first = axis->last = axis->owner = FR_NONE;
+    axis->row = row;
+    axis->order = (uint8_t)MIN(order, 255);
+    axis->is_growing = true;
     return plant->axis_count++;
 }
 
@@ -65,6 +65,20 @@ FrLiveBud *fr_grown_add_bud(FrGrownPlant *plant) {
     FrLiveBud *bud = &plant->buds[plant->bud_count++];
     memset(bud, 0, sizeof *bud); // padding too: digests read the bytes
     return bud;
+}
+
+void fr_grown_reserve(FrGrownPlant *plant, uint32_t nodes, uint32_t axes, uint32_t buds) {
+    if (nodes > plant->nodes.capacity) {
+        grow_nodes(&plant->nodes, nodes);
+    }
+    if (axes > plant->axis_capacity) {
+        plant->axis_capacity = axes;
+        plant->axes = g_renew(FrGrownAxis, plant->axes, axes);
+    }
+    if (buds > plant->bud_capacity) {
+        plant->bud_capacity = buds;
+        plant->buds = g_renew(FrLiveBud, plant->buds, buds);
+    }
 }
 
 void fr_grown_clear(FrGrownPlant *plant) {

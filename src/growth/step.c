@@ -3,23 +3,14 @@
 // section 3.2, with its random order of buds replaced by claims that know no order).
 #include "growth/propose.h"
 
-#include <cglm/struct.h>
-#include <string.h>
-
-typedef struct Step {
-    FrGrowth *growth;
-    uint32_t internode; ///< of the shoots
-} Step;
+#include <math.h>
 
 static void note_owner(FrGrowth *growth, uint32_t plant, uint32_t axis) {
     FrGrownAxis *of = &growth->plants[plant].axes[axis];
     if (of->owner != FR_NONE) {
         return;
     }
-    if (growth->owner_count == growth->owner_capacity) {
-        growth->owner_capacity = MAX(1024, growth->owner_capacity + growth->owner_capacity / 2);
-        growth->owners = g_renew(FrOwner, growth->owners, growth->owner_capacity);
-    }
+    fr_growth_reserve_owners(growth, growth->owner_count + 1);
     of->owner = growth->owner_count;
     growth->owners[growth->owner_count++] = (FrOwner){plant, axis};
 }
@@ -80,7 +71,7 @@ static void rank(FrGrowth *growth, uint32_t count) {
 }
 
 /// What has been settled becomes wood.
-static void commit(FrGrowth *growth, const FrProposal *proposal, uint32_t internode) {
+static void commit(FrGrowth *growth, const FrProposal *proposal) {
     FrGrownPlant *plant = &growth->plants[proposal->plant];
     FrLiveBud *bud = &plant->buds[proposal->bud];
     if (proposal->state != FR_PROPOSAL_WON) {
@@ -99,12 +90,11 @@ static void commit(FrGrowth *growth, const FrProposal *proposal, uint32_t intern
     bud->node = node;
     fr_growth_turn(bud, proposal->direction, (float)species->params.twist);
     fr_growth_sprout(growth, plant, proposal->bud, node);
-    (void)internode;
 }
 
 static void begin_plants(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
-    FrGrowth *growth = ((Step *)data)->growth;
+    FrGrowth *growth = data;
     for (size_t p = begin; p < end; p++) {
         FrGrownPlant *plant = &growth->plants[p];
         plant->born = plant->shed = plant->collisions = plant->contested = 0;
@@ -112,6 +102,11 @@ static void begin_plants(void *data, size_t begin, size_t end, int worker) {
         bool is_waiting = growth->step <= (uint64_t)species->params.start;
         for (uint32_t b = 0; b < plant->bud_count; b++) {
             FrLiveBud *bud = &plant->buds[b];
+            if (bud->is_reached) { // the published rule: dies with the particle
+                bud->state = FR_LIVE_DONE;
+                plant->axes[bud->axis].is_growing = false;
+            }
+            bud->is_reached = 0;
             bud->shoot = bud->state == FR_LIVE_GROWING && !is_waiting;
             if (bud->shoot > 0) {
                 bud->length = (float)fr_growth_length(growth, plant, bud);
@@ -122,7 +117,7 @@ static void begin_plants(void *data, size_t begin, size_t end, int worker) {
 
 static void end_plants(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
-    FrGrowth *growth = ((Step *)data)->growth;
+    FrGrowth *growth = data;
     for (size_t p = begin; p < end; p++) {
         FrGrownPlant *plant = &growth->plants[p];
         fr_growth_wake(growth, plant);
@@ -136,6 +131,42 @@ static void end_plants(void *data, size_t begin, size_t end, int worker) {
     }
 }
 
+/// Gathers all live buds, the growing ones first. Returns how many grow.
+static uint32_t gather_live(FrGrowth *growth, uint32_t *count) {
+    *count = 0;
+    for (uint32_t p = 0; p < growth->plant_count; p++) {
+        *count += growth->plants[p].bud_count;
+    }
+    if (*count > growth->live_capacity) {
+        growth->live_capacity = *count + *count / 2;
+        growth->live = g_renew(FrLiveBudAt, growth->live, growth->live_capacity);
+    }
+    uint32_t growing = 0, asleep = *count;
+    for (uint32_t p = 0; p < growth->plant_count; p++) {
+        FrGrownPlant *plant = &growth->plants[p];
+        const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
+        for (uint32_t b = 0; b < plant->bud_count; b++) {
+            FrLiveBud *bud = &plant->buds[b];
+            uint32_t slot = bud->state == FR_LIVE_GROWING ? growing++ : --asleep;
+            growth->live[slot] = (FrLiveBudAt){.bud = bud,
+                                               .params = params,
+                                               .world = fr_bud_world(plant, bud),
+                                               .influence = (float)params->influence,
+                                               .own_shade = sqrtf((float)params->foliage)};
+        }
+    }
+    return growing;
+}
+
+static FrStatus sense(FrGrowth *growth, const FrContext *context) {
+    uint32_t count, growing = gather_live(growth, &count);
+    gint64 begin = g_get_monotonic_time();
+    FrStatus status = fr_growth_light(growth, growth->live, count, context);
+    growth->light_seconds = (double)(g_get_monotonic_time() - begin) * 1e-6;
+    fr_growth_attract(growth, growth->live, growing, context);
+    return status;
+}
+
 static void make_shoots(FrGrowth *growth, const FrContext *context) {
     for (uint32_t internode = 0;; internode++) {
         uint32_t count = gather(growth, internode);
@@ -145,17 +176,49 @@ static void make_shoots(FrGrowth *growth, const FrContext *context) {
         rank(growth, count);
         fr_growth_settle(growth, growth->open, count, context);
         for (uint32_t i = 0; i < count; i++) {
-            commit(growth, &growth->proposals[i], internode);
+            commit(growth, &growth->proposals[i]);
         }
     }
 }
 
+/// Keeps the state of before the step.
+static void remember(FrGrowth *growth) {
+    if (growth->params.history == 0) {
+        return;
+    }
+    g_ptr_array_add(growth->history, fr_growth_save(growth));
+    if (growth->history->len > growth->params.history) {
+        g_ptr_array_remove_index(growth->history, 0);
+    }
+}
+
+bool fr_growth_undo(FrGrowth *growth) {
+    if (growth->history->len == 0) {
+        return false;
+    }
+    GBytes *bytes = g_ptr_array_steal_index(growth->history, growth->history->len - 1);
+    gsize size;
+    const void *data = g_bytes_get_data(bytes, &size);
+    FrContext context = fr_context_default();
+    FrStatus status = fr_growth_restore(growth, data, size, (FrSpan){0}, &context);
+    FR_ASSERT(status == FR_OK);
+    g_bytes_unref(bytes);
+    return true;
+}
+
 FrStatus fr_growth_step(FrGrowth *growth, const FrContext *context) {
+    gint64 begin = g_get_monotonic_time();
+    remember(growth);
     growth->step++;
-    Step step = {.growth = growth};
-    fr_parallel_for(context->pool, growth->plant_count, 1, begin_plants, &step, NULL);
+    FrStatus status = sense(growth, context);
+    if (status != FR_OK) {
+        growth->step--;
+        return status;
+    }
+    fr_parallel_for(context->pool, growth->plant_count, 1, begin_plants, growth, NULL);
     make_shoots(growth, context);
-    fr_parallel_for(context->pool, growth->plant_count, 1, end_plants, &step, NULL);
-    fr_growth_count(growth);
+    fr_growth_reach_particles(growth);
+    fr_parallel_for(context->pool, growth->plant_count, 1, end_plants, growth, NULL);
+    growth->seconds = (double)(g_get_monotonic_time() - begin) * 1e-6;
     return FR_OK;
 }

@@ -1,84 +1,203 @@
-// A grown plant as an FrPlant: axes and frames, radii by the pipe model, leaves, buds.
-#include "growth/engine.h"
+// A grown plant as an FrPlant: axes as splines through their nodes, frames, radii, buds.
+#include "growth/making.h"
 
 #include <cglm/struct.h>
 #include <math.h>
 
-typedef struct Making {
-    const FrGrowth *growth;
-    const FrGrownPlant *from;
-    const FrReadySpecies *species;
-    FrPlant *plant;
-    uint32_t *node_of; ///< by grown node; FR_NONE: shed
-    uint32_t *axis_of; ///< by grown axis
-} Making;
+enum { MOST_PARTS = 5 };
+#define BEND_OF_PART (8 * G_PI / 180)
 
-static vec3s from_of(const FrGrownPlant *plant, uint32_t node) {
-    uint32_t parent = plant->nodes.parent[node];
-    return parent == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[parent];
+static vec3s tip_of(const FrGrownPlant *plant, uint32_t node) {
+    return node == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[node];
 }
 
-static void add_axes(Making *making) {
+static uint32_t component_of(FrMaking *making, uint32_t order, uint32_t *known) {
+    while (*known <= order) {
+        char *id = g_strdup_printf("order-%u", *known);
+        fr_plant_add_component(making->plant, id, (FrSpan){0});
+        g_free(id);
+        (*known)++;
+    }
+    return order;
+}
+
+static void add_axes(FrMaking *making) {
     const FrGrownPlant *from = making->from;
     FrPlant *plant = making->plant;
-    uint32_t wood = fr_plant_add_material(plant, making->species->bark);
+    FrMaterial *bark = making->species->bark;
+    uint32_t wood = bark == NULL ? FR_NONE : fr_plant_add_material(plant, bark), known = 0;
     for (uint32_t i = 0; i < from->axis_count; i++) {
         const FrGrownAxis *axis = &from->axes[i];
         making->axis_of[i] = FR_NONE;
-        if (axis->first == FR_NONE || from->nodes.is_shed[axis->first]) {
+        if (axis->first == FR_NONE || axis->is_shed) {
             continue;
         }
         uint32_t made = fr_plant_append_axes(plant, 1);
         making->axis_of[i] = made;
         plant->axes.order[made] = axis->order;
         plant->axes.material[made] = wood;
+        plant->axes.component[made] = component_of(making, axis->order, &known);
         plant->axes.path[made] = axis->key;
+    }
+    making->leaf_component = fr_plant_add_component(plant, "leaf", (FrSpan){0});
+}
+
+/// Tangents of a Catmull-Rom spline through the nodes of the axes, each as long as its internode.
+typedef struct Tangents {
+    vec3s *in, *out; ///< by node: at the base and at the tip of its internode
+} Tangents;
+
+static Tangents tangents_of(const FrGrownPlant *from) {
+    const FrGrownNodes *nodes = &from->nodes;
+    Tangents tangents = {g_new(vec3s, nodes->count + 1), g_new(vec3s, nodes->count + 1)};
+    for (uint32_t i = 0; i < nodes->count; i++) {
+        uint32_t parent = nodes->parent[i];
+        vec3s along = glms_vec3_sub(nodes->at[i], tip_of(from, parent));
+        tangents.in[i] = tangents.out[i] = along;
+        if (parent == FR_NONE || nodes->axis[parent] != nodes->axis[i]) {
+            continue;
+        }
+        vec3s before = glms_vec3_sub(nodes->at[parent], tip_of(from, nodes->parent[parent]));
+        float a = glms_vec3_norm(before), b = glms_vec3_norm(along);
+        vec3s mean = glms_vec3_add(glms_vec3_scale(before, 1 / fmaxf(a, 1e-6f)),
+                                   glms_vec3_scale(along, 1 / fmaxf(b, 1e-6f)));
+        float length = glms_vec3_norm(mean);
+        if (length > 1e-3f) {
+            mean = glms_vec3_scale(mean, 1 / length);
+            tangents.out[parent] = glms_vec3_scale(mean, a);
+            tangents.in[i] = glms_vec3_scale(mean, b);
+        }
+    }
+    return tangents;
+}
+
+static vec3s hermite(vec3s a, vec3s b, vec3s from, vec3s to, float t) {
+    float t2 = t * t, t3 = t2 * t;
+    vec3s point = glms_vec3_scale(a, 2 * t3 - 3 * t2 + 1);
+    point = glms_vec3_add(point, glms_vec3_scale(from, t3 - 2 * t2 + t));
+    point = glms_vec3_add(point, glms_vec3_scale(b, 3 * t2 - 2 * t3));
+    return glms_vec3_add(point, glms_vec3_scale(to, t3 - t2));
+}
+
+/// How many straight parts an internode needs.
+static uint32_t parts_of(const FrSpeciesParams *params, vec3s in, vec3s out) {
+    float a = glms_vec3_norm(in), b = glms_vec3_norm(out);
+    if (!params->smooth || a <= 0 || b <= 0) {
+        return 1;
+    }
+    float cosine = glms_vec3_dot(in, out) / (a * b);
+    double bend = acos((double)CLAMP(cosine, -1, 1));
+    return (uint32_t)CLAMP(ceil(bend / BEND_OF_PART), 1, MOST_PARTS);
+}
+
+/// Appends a straight part from `from` to `to`, with the smallest turn.
+static uint32_t add_part(FrMaking *making, uint32_t axis, uint32_t parent, vec3s from, vec3s to,
+                         float radius) {
+    FrPlant *plant = making->plant;
+    vec3s along = glms_vec3_sub(to, from);
+    float length = glms_vec3_norm(along);
+    versors frame = {{0, 0, 0, 1}};
+    if (parent != FR_NONE) {
+        frame = plant->nodes.frame[parent];
+    }
+    vec3s ahead = fr_frame_heading(frame);
+    vec3s heading = length > 0 ? glms_vec3_scale(along, 1 / length) : ahead;
+    versors turned = glms_quat_mul(fr_rotation_between(ahead, heading), frame);
+    versors local = glms_quat_mul(glms_quat_conjugate(frame), turned);
+    return fr_plant_add_node(plant, axis, local, length, radius);
+}
+
+static void add_internode(FrMaking *making, const Tangents *tangents, uint32_t i) {
+    const FrGrownNodes *nodes = &making->from->nodes;
+    FrPlant *plant = making->plant;
+    uint32_t grown_parent = nodes->parent[i];
+    uint32_t parent = grown_parent == FR_NONE ? FR_NONE : making->node_of[grown_parent];
+    uint32_t axis = making->axis_of[nodes->axis[i]];
+    bool is_first = plant->axes.first[axis] == FR_NONE;
+    if (is_first) {
+        plant->axes.bearer[axis] = parent;
+        plant->axes.base_radius[axis] = making->radii[i];
+    }
+    float base = is_first || parent == FR_NONE ? making->radii[i] : making->radii[grown_parent];
+    vec3s from = tip_of(making->from, grown_parent), start = from;
+    uint32_t parts = parts_of(&making->species->params, tangents->in[i], tangents->out[i]);
+    for (uint32_t part = 1; part <= parts; part++) {
+        float t = (float)part / (float)parts;
+        vec3s to = part == parts
+                       ? nodes->at[i]
+                       : hermite(start, nodes->at[i], tangents->in[i], tangents->out[i], t);
+        float radius = base + (making->radii[i] - base) * t;
+        parent = add_part(making, axis, parent, from, to, radius);
+        plant->nodes.birth[parent] = nodes->birth[i];
+        from = to;
+    }
+    making->node_of[i] = parent;
+}
+
+static void add_buds(FrMaking *making) {
+    const FrGrownPlant *from = making->from;
+    FrBuds *buds = &making->plant->buds;
+    uint32_t first = fr_plant_append_buds(making->plant, from->bud_count);
+    for (uint32_t i = 0; i < from->bud_count; i++) {
+        const FrLiveBud *bud = &from->buds[i];
+        bool is_growing = bud->state == FR_LIVE_GROWING;
+        buds->node[first + i] = bud->node == FR_NONE ? FR_NONE : making->node_of[bud->node];
+        buds->kind[first + i] = is_growing ? FR_BUD_APICAL : FR_BUD_LATERAL;
+        buds->state[first + i] = is_growing ? FR_BUD_ACTIVE : FR_BUD_DORMANT;
+        buds->dormancy[first + i] = is_growing ? 0 : bud->age;
+        buds->direction[first + i] = bud->direction;
+        buds->id[first + i] = bud->key;
     }
 }
 
-static void add_node(Making *making, uint32_t i) {
-    const FrGrownPlant *from = making->from;
-    FrPlant *plant = making->plant;
-    uint32_t axis = making->axis_of[from->nodes.axis[i]];
-    vec3s along = glms_vec3_sub(from->nodes.at[i], from_of(from, i));
-    float length = glms_vec3_norm(along);
-    uint32_t parent =
-        from->nodes.parent[i] == FR_NONE ? FR_NONE : making->node_of[from->nodes.parent[i]];
-    versors frame = parent == FR_NONE
-                        ? fr_frame_from_heading((vec3s){{0, 0, 1}}, (vec3s){{0, 1, 0}})
-                        : plant->nodes.frame[parent];
-    vec3s heading = length > 0 ? glms_vec3_scale(along, 1 / length) : fr_frame_heading(frame);
-    if (plant->axes.first[axis] == FR_NONE) {
-        plant->axes.bearer[axis] = parent;
-    }
-    versors turned = glms_quat_mul(fr_rotation_between(fr_frame_heading(frame), heading), frame);
-    versors local = parent == FR_NONE ? turned : glms_quat_mul(glms_quat_conjugate(frame), turned);
-    making->node_of[i] = fr_plant_add_node(plant, axis, local, length, 0);
-    plant->nodes.birth[making->node_of[i]] = from->nodes.birth[i];
+static void find_radii(FrMaking *making) {
+    uint32_t count = making->from->nodes.count;
+    double *pipes = g_new(double, count + 1);
+    fr_growth_pipes(making->from, making->species->params.taper, pipes);
+    fr_growth_radii(making->species, pipes, count, making->radii);
+    g_free(pipes);
 }
 
 FrStatus fr_growth_plant(const FrGrowth *growth, uint32_t plant, const FrContext *context,
                          FrPlant **grown) {
     *grown = NULL;
     FR_ASSERT(plant < growth->plant_count);
-    (void)context;
-    Making making = {.growth = growth,
-                     .from = &growth->plants[plant],
-                     .species = fr_species_of(growth, &growth->plants[plant])};
-    making.plant = fr_plant_new(making.species->name);
-    making.node_of = g_new(uint32_t, making.from->nodes.count + 1);
-    making.axis_of = g_new(uint32_t, making.from->axis_count + 1);
-    fr_plant_reserve(making.plant, making.from->nodes.count, making.from->axis_count);
+    const FrGrownPlant *from = &growth->plants[plant];
+    const FrReadySpecies *species = fr_species_of(growth, from);
+    uint64_t organs = fr_count_multiply(from->nodes.count, (uint64_t)species->params.leaves);
+    FrStatus status =
+        fr_limit_check(fr_count_multiply(from->nodes.count, MOST_PARTS), context->limits.nodes,
+                       "nodes", species->name, (FrSpan){0}, context->diags);
+    if (status == FR_OK) {
+        status = fr_limit_check(organs, context->limits.organs, "organs", species->name,
+                                (FrSpan){0}, context->diags);
+    }
+    if (status != FR_OK) {
+        return status;
+    }
+    FrMaking making = {.growth = growth,
+                       .from = from,
+                       .species = species,
+                       .plant = fr_plant_new(species->name),
+                       .node_of = g_new(uint32_t, from->nodes.count + 1),
+                       .axis_of = g_new(uint32_t, from->axis_count + 1),
+                       .radii = g_new(float, from->nodes.count + 1)};
     add_axes(&making);
-    for (uint32_t i = 0; i < making.from->nodes.count; i++) {
-        if (!making.from->nodes.is_shed[i]) {
-            add_node(&making, i);
+    find_radii(&making);
+    Tangents tangents = tangents_of(from);
+    for (uint32_t i = 0; i < from->nodes.count; i++) {
+        making.node_of[i] = FR_NONE;
+        if (!from->nodes.is_shed[i]) {
+            add_internode(&making, &tangents, i);
         }
     }
-    const FrSpeciesParams *params = &making.species->params;
-    fr_plant_pipe_radii(making.plant, params->pipe_exponent, params->tip_radius);
+    fr_making_add_leaves(&making);
+    add_buds(&making);
+    g_free(tangents.in);
+    g_free(tangents.out);
     g_free(making.node_of);
     g_free(making.axis_of);
+    g_free(making.radii);
     *grown = making.plant;
     return FR_OK;
 }

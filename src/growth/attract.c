@@ -1,0 +1,141 @@
+// Attraction particles and buds (Beneš, Andrysco, Šťava 2009, sections 3.1 and 3.4; Runions, Lane,
+// Prusinkiewicz 2007, Modeling Trees with a Space Colonization Algorithm). A particle draws the
+// nearest live bud within its influence; homogeneous coordinates make places and directions one.
+//
+// The published rule kills the bud together with the particle that it reaches; Runions' kills the
+// particle alone. The published direction is to the nearest particle, Runions' the mean of all.
+#include "growth/engine.h"
+
+#include <cglm/struct.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct Attracting {
+    FrGrowth *growth;
+    const FrLiveBudAt *buds; ///< growing, gathered
+    uint64_t *nearest;       ///< by particle: bits of the squared distance, then of the bud's key
+} Attracting;
+
+static float influence_of(const FrParticles *particles, uint32_t i, float species) {
+    return particles->influence[i] > 0 ? particles->influence[i] : species;
+}
+
+/// Distance first, so that the smallest number is the nearest; the key tells equals apart.
+static uint64_t code(float squared, FrKey key) {
+    uint32_t bits;
+    memcpy(&bits, &squared, sizeof bits);
+    return (uint64_t)bits << 32 | (uint32_t)(key >> 32);
+}
+
+static float squared_distance(const FrParticles *particles, uint32_t i, vec3s at) {
+    float x = particles->x[i] - at.x, y = particles->y[i] - at.y, z = particles->z[i] - at.z;
+    return x * x + y * y + z * z;
+}
+
+static void find_nearest(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Attracting *attracting = data;
+    const FrParticles *particles = attracting->growth->particles;
+    FrRun runs[FR_MAX_RUNS];
+    for (size_t b = begin; b < end; b++) {
+        const FrLiveBudAt *bud = &attracting->buds[b];
+        float widest = fmaxf(bud->influence, particles->widest_influence);
+        uint32_t count = fr_particles_near(particles, bud->world, widest, runs);
+        for (uint32_t r = 0; r < count; r++) {
+            for (uint32_t i = runs[r].begin; i < runs[r].end; i++) {
+                float squared = squared_distance(particles, i, bud->world);
+                float reach = influence_of(particles, i, bud->influence);
+                if (particles->is_dead[i] || squared > reach * reach) {
+                    continue;
+                }
+                uint64_t mine = code(squared, bud->bud->key);
+                uint64_t old = __atomic_load_n(&attracting->nearest[i], __ATOMIC_RELAXED);
+                while (mine < old &&
+                       !__atomic_compare_exchange_n(&attracting->nearest[i], &old, mine, true,
+                                                    __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+                }
+            }
+        }
+    }
+}
+
+/// Adds the directions that draw all buds alike.
+static vec3s towards_directions(const FrParticles *particles, vec3s at) {
+    vec3s sum = {{0, 0, 0}};
+    for (uint32_t i = 0; i < particles->direction_count; i++) {
+        const FrParticle *far = &particles->directions[i];
+        vec3s towards = glms_vec3_sub(far->at, glms_vec3_scale(at, far->w));
+        float length = glms_vec3_norm(towards);
+        if (length > 0) {
+            sum = glms_vec3_add(sum, glms_vec3_scale(towards, 1 / length));
+        }
+    }
+    return sum;
+}
+
+static void sum_up(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Attracting *attracting = data;
+    const FrParticles *particles = attracting->growth->particles;
+    FrRun runs[FR_MAX_RUNS];
+    for (size_t b = begin; b < end; b++) {
+        const FrLiveBudAt *bud = &attracting->buds[b];
+        vec3s sum = towards_directions(particles, bud->world), nearest = sum;
+        float least = INFINITY;
+        float widest = fmaxf(bud->influence, particles->widest_influence);
+        uint32_t count = fr_particles_near(particles, bud->world, widest, runs);
+        for (uint32_t r = 0; r < count; r++) {
+            for (uint32_t i = runs[r].begin; i < runs[r].end; i++) {
+                float squared = squared_distance(particles, i, bud->world);
+                if (attracting->nearest[i] != code(squared, bud->bud->key) || squared <= 0) {
+                    continue;
+                }
+                vec3s place = {{particles->x[i], particles->y[i], particles->z[i]}};
+                vec3s towards =
+                    glms_vec3_scale(glms_vec3_sub(place, bud->world), 1 / sqrtf(squared));
+                sum = glms_vec3_add(sum, towards);
+                nearest = squared < least ? towards : nearest;
+                least = fminf(least, squared);
+            }
+        }
+        vec3s wanted = bud->params->particle_mean == FR_PARTICLES_NEAREST ? nearest : sum;
+        float length = glms_vec3_norm(wanted);
+        // Particles on both sides cancel out; then the nearest decides.
+        if (length < 1e-4f) {
+            wanted = nearest;
+            length = glms_vec3_norm(wanted);
+        }
+        bud->bud->attraction = length > 1e-4f ? glms_vec3_scale(wanted, 1 / length) : (vec3s){0};
+    }
+}
+
+/// The published rule: what a bud reaches dies together with it. Serial, since it takes particles.
+static void meet(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count) {
+    for (uint32_t b = 0; b < count; b++) {
+        if (buds[b].params->particle_rule == FR_PARTICLE_BUD) {
+            buds[b].bud->is_reached =
+                fr_particles_reach(growth->particles, buds[b].world, (float)buds[b].params->kill);
+        }
+    }
+    for (uint32_t b = 0; b < count; b++) {
+        if (buds[b].params->particle_rule == FR_PARTICLE_BUD) {
+            fr_particles_kill(growth->particles, buds[b].world, (float)buds[b].params->kill);
+        }
+    }
+}
+
+void fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+                       const FrContext *context) {
+    enum { GRAIN = 64 };
+    FrParticles *particles = growth->particles;
+    if (particles == NULL) {
+        return;
+    }
+    Attracting attracting = {.growth = growth, .buds = buds};
+    attracting.nearest = g_new(uint64_t, particles->count + 1);
+    memset(attracting.nearest, 0xff, particles->count * sizeof(uint64_t));
+    meet(growth, buds, count);
+    fr_parallel_for(context->pool, count, GRAIN, find_nearest, &attracting, NULL);
+    fr_parallel_for(context->pool, count, GRAIN, sum_up, &attracting, NULL);
+    g_free(attracting.nearest);
+}

@@ -1,0 +1,276 @@
+// Light by views of the sky (Beneš 1996, An Efficient Estimation of Light in Simulation of Plant
+// Development, as used by Beneš, Andrysco, Šťava 2009, section 3.3): from m directions the scene is
+// drawn into a depth buffer; a bud's light is the share of views that see it, and its brightest
+// spot lies where these views are, in the mean.
+//
+// Leaves are drawn as squares that face the view. One smaller than a pixel is drawn, or left out,
+// by chance in proportion to its area, so that coverage is right in the mean. Every buffer keeps
+// the nearest depth alone, so the order of drawing has no say.
+#include "growth/sky.h"
+
+#include <cglm/struct.h>
+#include <math.h>
+#include <string.h>
+
+// ---- directions -------------------------------------------------------------------------------
+
+/// Directions spread evenly over the upper half of the sphere (a Fibonacci lattice).
+static vec3s lattice(uint32_t i, uint32_t count, vec3s up, versors frame) {
+    double height = 1 - ((double)i + 0.5) / count;
+    double around = 2 * G_PI * 0.6180339887498949 * i;
+    double across = sqrt(1 - height * height);
+    vec3s side = glms_vec3_add(glms_vec3_scale(fr_frame_left(frame), (float)(across * cos(around))),
+                               glms_vec3_scale(fr_frame_up(frame), (float)(across * sin(around))));
+    return glms_vec3_add(side, glms_vec3_scale(up, (float)height));
+}
+
+FrSky fr_sky_of(const FrGrowth *growth) {
+    const FrGrowthParams *params = &growth->params;
+    FrSky sky = {.count = (uint32_t)params->views};
+    uint32_t suns = (uint32_t)MIN(params->suns, params->views);
+    // The sky does not tilt with gravity.
+    vec3s up = {{0, 0, 1}};
+    versors frame = fr_frame_from_heading(up, (vec3s){{0, 1, 0}});
+    double sum = 0;
+    for (uint32_t i = 0; i < sky.count; i++) {
+        double angle = G_PI * ((double)i + 0.5) / MAX(suns, 1);
+        vec3s path = {{(float)cos(angle), 0, (float)sin(angle)}};
+        vec3s sun = growth->suns != NULL && i < suns ? growth->suns[i] : path;
+        sky.direction[i] = i < suns ? sun : lattice(i - suns, sky.count - suns, up, frame);
+        double weight = params->overcast ? (1 + 2 * (double)sky.direction[i].z) / 3 : 1;
+        sky.weight[i] = (float)weight;
+        sum += weight;
+    }
+    for (uint32_t i = 0; i < sky.count; i++) {
+        sky.weight[i] /= (float)sum;
+    }
+    return sky;
+}
+
+// ---- drawing ----------------------------------------------------------------------------------
+
+/// A view: two axes of its picture, and where on them the picture lies.
+typedef struct View {
+    vec3s right, up, towards;
+    float left, bottom; ///< of the picture, m
+    float scale;        ///< pixels a metre
+    int width;          ///< pixels both ways
+    float *depth;       ///< nearest to the sky
+    uint32_t index;
+} View;
+
+typedef struct Looking {
+    const FrGrowth *growth;
+    const FrSky *sky;
+    const FrShades *shades;
+    const FrLiveBudAt *buds;
+    uint32_t bud_count;
+    vec3s low, high;  ///< box around buds and leaves
+    float pixel;      ///< m
+    int width;        ///< pixels
+    float **depth;    ///< by worker
+    uint8_t *is_seen; ///< by view, then by bud
+} Looking;
+
+static View view_of(const Looking *looking, uint32_t index, int worker) {
+    View view = {.towards = looking->sky->direction[index],
+                 .scale = 1 / looking->pixel,
+                 .width = looking->width,
+                 .depth = looking->depth[worker],
+                 .index = index};
+    versors frame = fr_frame_from_heading(view.towards, (vec3s){{0.36f, 0.48f, 0.8f}});
+    view.right = fr_frame_left(frame);
+    view.up = fr_frame_up(frame);
+    vec3s middle = glms_vec3_scale(glms_vec3_add(looking->low, looking->high), 0.5f);
+    float half = looking->pixel * (float)looking->width / 2;
+    view.left = glms_vec3_dot(middle, view.right) - half;
+    view.bottom = glms_vec3_dot(middle, view.up) - half;
+    return view;
+}
+
+/// Squares of less than a pixel count by chance.
+static bool is_drawn(uint32_t hash, uint32_t index, float share) {
+    uint32_t bits = (hash ^ (index * 0x9e3779b9u)) * 0x85ebca6bu;
+    bits ^= bits >> 15;
+    bits *= 0x2c1b3c6du;
+    return (float)(bits >> 8) * 0x1p-24f < share;
+}
+
+static void draw_square(const View *view, float x, float y, float depth, float half) {
+    int left = (int)fmaxf(x - half + 0.5f, 0),
+        right = (int)fminf(x + half + 0.5f, (float)view->width);
+    int low = (int)fmaxf(y - half + 0.5f, 0),
+        high = (int)fminf(y + half + 0.5f, (float)view->width);
+    for (int row = low; row < high; row++) {
+        float *pixels = view->depth + (size_t)row * (size_t)view->width;
+        for (int column = left; column < right; column++) {
+            pixels[column] = fmaxf(pixels[column], depth);
+        }
+    }
+}
+
+static void draw_shades(const View *view, const FrShades *shades) {
+    for (uint32_t i = 0; i < shades->count; i++) {
+        vec3s at = {{shades->x[i], shades->y[i], shades->z[i]}};
+        float x = (glms_vec3_dot(at, view->right) - view->left) * view->scale;
+        float y = (glms_vec3_dot(at, view->up) - view->bottom) * view->scale;
+        float depth = glms_vec3_dot(at, view->towards);
+        float side = shades->side[i] * view->scale;
+        if (side > 1) {
+            draw_square(view, x, y, depth, side / 2);
+        } else if (is_drawn(shades->hash[i], view->index, side * side)) {
+            bool is_inside = x >= 0 && y >= 0 && x < (float)view->width && y < (float)view->width;
+            if (is_inside) {
+                float *pixel = view->depth + (size_t)y * (size_t)view->width + (size_t)x;
+                *pixel = fmaxf(*pixel, depth);
+            }
+        }
+    }
+}
+
+static float edge(const float a[2], const float b[2], float x, float y) {
+    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+}
+
+/// Pixels whose middle a triangle covers.
+static void draw_triangle(const View *view, const float corner[3][2], const float depth[3]) {
+    float area = edge(corner[0], corner[1], corner[2][0], corner[2][1]);
+    if (fabsf(area) < 1e-12f) {
+        return;
+    }
+    int from[2], to[2];
+    for (int k = 0; k < 2; k++) {
+        float low = fminf(corner[0][k], fminf(corner[1][k], corner[2][k]));
+        float high = fmaxf(corner[0][k], fmaxf(corner[1][k], corner[2][k]));
+        from[k] = (int)fminf(fmaxf(low - 0.5f, 0), (float)view->width);
+        to[k] = (int)fminf(fmaxf(high + 1.5f, 0), (float)view->width);
+    }
+    for (int row = from[1]; row < to[1]; row++) {
+        for (int column = from[0]; column < to[0]; column++) {
+            float x = (float)column + 0.5f, y = (float)row + 0.5f;
+            float a = edge(corner[1], corner[2], x, y) / area;
+            float b = edge(corner[2], corner[0], x, y) / area;
+            float c = 1 - a - b;
+            if (a >= 0 && b >= 0 && c >= 0) {
+                float *pixel = view->depth + (size_t)row * (size_t)view->width + (size_t)column;
+                *pixel = fmaxf(*pixel, a * depth[0] + b * depth[1] + c * depth[2]);
+            }
+        }
+    }
+}
+
+static void draw_obstacles(const View *view, const FrGrowth *growth) {
+    for (uint32_t o = 0; o < growth->obstacle_count; o++) {
+        const FrGrownObstacle *obstacle = &growth->obstacles[o];
+        for (uint32_t i = 0; i + 2 < obstacle->index_count; i += 3) {
+            float corner[3][2], depth[3];
+            for (uint32_t k = 0; k < 3; k++) {
+                vec3s at = obstacle->positions[obstacle->indices[i + k]];
+                corner[k][0] = (glms_vec3_dot(at, view->right) - view->left) * view->scale;
+                corner[k][1] = (glms_vec3_dot(at, view->up) - view->bottom) * view->scale;
+                depth[k] = glms_vec3_dot(at, view->towards);
+            }
+            draw_triangle(view, corner, depth);
+        }
+    }
+}
+
+// ---- looking ----------------------------------------------------------------------------------
+
+static void look_at_buds(const Looking *looking, const View *view) {
+    uint8_t *is_seen = looking->is_seen + (size_t)view->index * looking->bud_count;
+    for (uint32_t i = 0; i < looking->bud_count; i++) {
+        vec3s at = looking->buds[i].world;
+        float x = (glms_vec3_dot(at, view->right) - view->left) * view->scale;
+        float y = (glms_vec3_dot(at, view->up) - view->bottom) * view->scale;
+        int column = (int)CLAMP(x, 0, (float)(view->width - 1));
+        int row = (int)CLAMP(y, 0, (float)(view->width - 1));
+        // Its own leaves do not shade a bud, nor does the slope of the pixel.
+        float bias = fmaxf(looking->pixel, looking->buds[i].own_shade);
+        float depth = view->depth[(size_t)row * (size_t)view->width + (size_t)column];
+        is_seen[i] = depth <= glms_vec3_dot(at, view->towards) + bias;
+    }
+}
+
+static void look(void *data, size_t begin, size_t end, int worker) {
+    const Looking *looking = data;
+    size_t pixels = (size_t)looking->width * (size_t)looking->width;
+    for (size_t index = begin; index < end; index++) {
+        View view = view_of(looking, (uint32_t)index, worker);
+        for (size_t i = 0; i < pixels; i++) {
+            view.depth[i] = -INFINITY;
+        }
+        draw_shades(&view, looking->shades);
+        draw_obstacles(&view, looking->growth);
+        look_at_buds(looking, &view);
+    }
+}
+
+static void sum_up(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Looking *looking = data;
+    for (size_t i = begin; i < end; i++) {
+        float light = 0;
+        vec3s sum = {{0, 0, 0}};
+        for (uint32_t view = 0; view < looking->sky->count; view++) {
+            if (looking->is_seen[(size_t)view * looking->bud_count + i]) {
+                float weight = looking->sky->weight[view];
+                light += weight;
+                sum = glms_vec3_add(sum, glms_vec3_scale(looking->sky->direction[view], weight));
+            }
+        }
+        FrLiveBud *bud = looking->buds[i].bud;
+        float length = glms_vec3_norm(sum);
+        bud->light = fminf(light, 1);
+        bud->brightest = length > 1e-6f ? glms_vec3_scale(sum, 1 / length) : (vec3s){0};
+    }
+}
+
+static void include(Looking *looking, vec3s at) {
+    looking->low = glms_vec3_minv(looking->low, at);
+    looking->high = glms_vec3_maxv(looking->high, at);
+}
+
+/// Pixels no finer than leaves need.
+static void lay_pictures(Looking *looking) {
+    float widest = 0;
+    looking->low = (vec3s){{INFINITY, INFINITY, INFINITY}};
+    looking->high = glms_vec3_negate(looking->low);
+    for (uint32_t i = 0; i < looking->bud_count; i++) {
+        include(looking, looking->buds[i].world);
+    }
+    for (uint32_t i = 0; i < looking->shades->count; i++) {
+        include(looking,
+                (vec3s){{looking->shades->x[i], looking->shades->y[i], looking->shades->z[i]}});
+        widest = fmaxf(widest, looking->shades->side[i]);
+    }
+    float size = glms_vec3_distance(looking->low, looking->high) + widest;
+    looking->pixel =
+        fmaxf(fmaxf(size / (float)looking->growth->params.resolution, widest / 4), 0.001f);
+    looking->width = (int)ceilf(size / looking->pixel) + 1;
+}
+
+void fr_sky_look(const FrGrowth *growth, const FrSky *sky, const FrShades *shades,
+                 const FrLiveBudAt *buds, uint32_t count, const FrContext *context) {
+    enum { GRAIN = 1024 };
+    if (count == 0) {
+        return;
+    }
+    Looking looking = {
+        .growth = growth, .sky = sky, .shades = shades, .buds = buds, .bud_count = count};
+    lay_pictures(&looking);
+    int threads = fr_pool_threads(context->pool);
+    size_t pixels = (size_t)looking.width * (size_t)looking.width;
+    looking.depth = g_new(float *, threads);
+    for (int i = 0; i < threads; i++) {
+        looking.depth[i] = g_new(float, pixels);
+    }
+    looking.is_seen = g_new(uint8_t, (size_t)sky->count * count);
+    fr_parallel_for(context->pool, sky->count, 1, look, &looking, NULL);
+    fr_parallel_for(context->pool, count, GRAIN, sum_up, &looking, NULL);
+    for (int i = 0; i < threads; i++) {
+        g_free(looking.depth[i]);
+    }
+    g_free(looking.depth);
+    g_free(looking.is_seen);
+}

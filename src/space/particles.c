@@ -1,0 +1,223 @@
+// Attraction particles: a grid over sorted columns.
+#include "frond/particles.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MAX_CELLS = 1 << 24 };
+
+typedef struct Sorting {
+    FrParticle particle;
+    uint32_t cell;
+} Sorting;
+
+static int compare_float(float a, float b) {
+    return a < b ? -1 : a > b;
+}
+
+static int compare(const void *a, const void *b) {
+    const Sorting *one = a, *other = b;
+    if (one->cell != other->cell) {
+        return one->cell < other->cell ? -1 : 1;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        int order = compare_float(one->particle.at.raw[axis], other->particle.at.raw[axis]);
+        if (order != 0) {
+            return order;
+        }
+    }
+    int order = compare_float(one->particle.influence, other->particle.influence);
+    return order != 0 ? order : compare_float(one->particle.kill, other->particle.kill);
+}
+
+/// Cells of half the reach, or wider where there would be too many.
+static void lay_grid(FrParticles *grid, const Sorting *places, uint32_t count, float reach) {
+    float low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    for (uint32_t i = 0; i < count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            float at = places[i].particle.at.raw[axis];
+            low[axis] = i == 0 ? at : fminf(low[axis], at);
+            high[axis] = i == 0 ? at : fmaxf(high[axis], at);
+        }
+    }
+    double cells;
+    grid->cell = fmaxf(reach / 2, 1e-6f);
+    do {
+        cells = 1;
+        for (int axis = 0; axis < 3; axis++) {
+            grid->origin[axis] = low[axis];
+            double size = floor((double)(high[axis] - low[axis]) / (double)grid->cell) + 1;
+            grid->size[axis] = (int)fmin(size, 1e9);
+            cells *= size;
+        }
+        grid->cell *= cells > MAX_CELLS ? 1.5f : 1;
+    } while (cells > MAX_CELLS);
+}
+
+static int cell_along(const FrParticles *grid, float at, int axis) {
+    float where = floorf((at - grid->origin[axis]) / grid->cell);
+    return (int)fminf(fmaxf(where, 0), (float)(grid->size[axis] - 1));
+}
+
+static void fill_columns(FrParticles *grid, const Sorting *places) {
+    uint32_t count = grid->count;
+    grid->x = g_new(float, count + 1);
+    grid->y = g_new(float, count + 1);
+    grid->z = g_new(float, count + 1);
+    grid->influence = g_new(float, count + 1);
+    grid->kill = g_new(float, count + 1);
+    grid->is_dead = g_new0(uint8_t, count + 1);
+    size_t cells = (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2];
+    grid->start = g_new0(uint32_t, cells + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        const FrParticle *particle = &places[i].particle;
+        grid->x[i] = particle->at.x;
+        grid->y[i] = particle->at.y;
+        grid->z[i] = particle->at.z;
+        grid->influence[i] = particle->influence;
+        grid->kill[i] = particle->kill;
+        grid->widest_influence = fmaxf(grid->widest_influence, particle->influence);
+        grid->widest_kill = fmaxf(grid->widest_kill, particle->kill);
+        grid->start[places[i].cell + 1]++;
+    }
+    for (size_t cell = 0; cell < cells; cell++) {
+        grid->start[cell + 1] += grid->start[cell];
+    }
+}
+
+FrParticles *fr_particles_new(const FrParticle *particles, uint32_t count, float reach) {
+    FrParticles *grid = g_new0(FrParticles, 1);
+    Sorting *places = g_new(Sorting, count + 1);
+    grid->directions = g_new(FrParticle, count + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        if (particles[i].w == 1) {
+            places[grid->count++] = (Sorting){.particle = particles[i]};
+        } else {
+            grid->directions[grid->direction_count++] = particles[i];
+        }
+    }
+    lay_grid(grid, places, grid->count, reach);
+    for (uint32_t i = 0; i < grid->count; i++) {
+        int at[3];
+        for (int axis = 0; axis < 3; axis++) {
+            at[axis] = cell_along(grid, places[i].particle.at.raw[axis], axis);
+        }
+        places[i].cell = (uint32_t)((at[2] * grid->size[1] + at[1]) * grid->size[0] + at[0]);
+    }
+    qsort(places, grid->count, sizeof *places, compare);
+    fill_columns(grid, places);
+    g_free(places);
+    return grid;
+}
+
+void fr_particles_free(FrParticles *particles) {
+    if (particles == NULL) {
+        return;
+    }
+    g_free(particles->x);
+    g_free(particles->y);
+    g_free(particles->z);
+    g_free(particles->influence);
+    g_free(particles->kill);
+    g_free(particles->is_dead);
+    g_free(particles->directions);
+    g_free(particles->start);
+    g_free(particles);
+}
+
+/// How far `at` is from the nearest point of cells [cell, cell + 1) along an axis.
+static float away(const FrParticles *grid, float at, int cell, int axis) {
+    float low = grid->origin[axis] + grid->cell * (float)cell;
+    return fmaxf(0, fmaxf(low - at, at - (low + grid->cell)));
+}
+
+uint32_t fr_particles_near(const FrParticles *grid, vec3s at, float radius, FrRun *runs) {
+    uint32_t count = 0;
+    // A little more than asked for: cells are found with rounding.
+    float reach = radius + grid->cell * 1e-3f;
+    int from[3], to[3];
+    for (int axis = 0; axis < 3; axis++) {
+        from[axis] = cell_along(grid, at.raw[axis] - reach, axis);
+        to[axis] = cell_along(grid, at.raw[axis] + reach, axis);
+    }
+    bool is_coarse = (to[1] - from[1] + 1) * (to[2] - from[2] + 1) > FR_MAX_RUNS;
+    if (grid->count == 0 || is_coarse) {
+        runs[0] = (FrRun){0, grid->count};
+        return grid->count > 0;
+    }
+    for (int z = from[2]; z <= to[2]; z++) {
+        float dz = away(grid, at.z, z, 2);
+        for (int y = from[1]; y <= to[1]; y++) {
+            float dy = away(grid, at.y, y, 1);
+            float left = reach * reach - dz * dz - dy * dy;
+            if (left < 0) {
+                continue;
+            }
+            float half = sqrtf(left);
+            uint32_t row = (uint32_t)((z * grid->size[1] + y) * grid->size[0]);
+            int first = cell_along(grid, at.x - half - grid->cell * 1e-3f, 0);
+            int last = cell_along(grid, at.x + half + grid->cell * 1e-3f, 0);
+            FrRun run = {grid->start[row + (uint32_t)first], grid->start[row + (uint32_t)last + 1]};
+            if (run.end > run.begin) {
+                runs[count++] = run;
+            }
+        }
+    }
+    return count;
+}
+
+FrParticle *fr_particles_living(const FrParticles *particles, uint32_t *count) {
+    FrParticle *living = g_new(FrParticle, particles->count + particles->direction_count + 1);
+    *count = 0;
+    for (uint32_t i = 0; i < particles->direction_count; i++) {
+        living[(*count)++] = particles->directions[i];
+    }
+    for (uint32_t i = 0; i < particles->count; i++) {
+        if (!particles->is_dead[i]) {
+            living[(*count)++] =
+                (FrParticle){.at = {{particles->x[i], particles->y[i], particles->z[i]}},
+                             .w = 1,
+                             .influence = particles->influence[i],
+                             .kill = particles->kill[i]};
+        }
+    }
+    return living;
+}
+
+/// True if a particle is within its own kill radius of a point, or within `radius` if it has none.
+static bool is_reached(const FrParticles *particles, uint32_t i, vec3s at, float radius) {
+    float x = particles->x[i] - at.x, y = particles->y[i] - at.y, z = particles->z[i] - at.z;
+    float reach = particles->kill[i] >= 0 ? particles->kill[i] : radius;
+    return x * x + y * y + z * z < reach * reach;
+}
+
+uint32_t fr_particles_kill(FrParticles *particles, vec3s at, float radius) {
+    FrRun runs[FR_MAX_RUNS];
+    float widest = fmaxf(radius, particles->widest_kill);
+    uint32_t run_count = fr_particles_near(particles, at, widest, runs);
+    uint32_t killed = 0;
+    for (uint32_t r = 0; r < run_count; r++) {
+        for (uint32_t i = runs[r].begin; i < runs[r].end; i++) {
+            if (!particles->is_dead[i] && is_reached(particles, i, at, radius)) {
+                particles->is_dead[i] = 1;
+                killed++;
+            }
+        }
+    }
+    particles->dead_count += killed;
+    return killed;
+}
+
+bool fr_particles_reach(const FrParticles *particles, vec3s at, float radius) {
+    FrRun runs[FR_MAX_RUNS];
+    float widest = fmaxf(radius, particles->widest_kill);
+    uint32_t run_count = fr_particles_near(particles, at, widest, runs);
+    for (uint32_t r = 0; r < run_count; r++) {
+        for (uint32_t i = runs[r].begin; i < runs[r].end; i++) {
+            if (!particles->is_dead[i] && is_reached(particles, i, at, radius)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
