@@ -72,6 +72,8 @@
     X(REAL, shed_light, "0.2", 0, 1, "", "", "below which a bud is dark")                          \
     X(REAL, shed_vigour, "0.3", 0, 1000, "", "", "vigour per internode below which it drops")      \
     X(INTEGER, shed_age, "3", 0, 1000, "", "", "steps before a branch may drop")                   \
+    X(INTEGER, shed_dead, "4", 0, 10000, "", "",                                                   \
+      "steps after which branches without live buds drop; 0: never")                               \
     /* attraction particles */                                                                     \
     X(INTEGER, particles, "0", 0, 10000000, "", "", "that its envelope is filled with at first")   \
     X(CHOICE, particle_rule, "space", 0, 0, "", "space bud",                                       \

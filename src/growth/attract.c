@@ -73,38 +73,75 @@ static vec3s towards_directions(const FrParticles *particles, vec3s at) {
     return sum;
 }
 
+/// What a bud has seen of its particles.
+typedef struct Pull {
+    int64_t sum[3]; ///< of unit vectors in whole numbers: the order of particles has no say
+    float least;    ///< squared distance of the nearest
+    vec3s nearest;  ///< where it is
+} Pull;
+
+#define UNIT 0x1p30
+
+static bool comes_before(vec3s a, vec3s b) {
+    for (int axis = 0; axis < 3; axis++) {
+        if (a.raw[axis] != b.raw[axis]) {
+            return a.raw[axis] < b.raw[axis];
+        }
+    }
+    return false;
+}
+
+static void add_pull(Pull *pull, vec3s place, vec3s at, float squared) {
+    float scale = 1 / sqrtf(squared);
+    for (int axis = 0; axis < 3; axis++) {
+        double part = (double)((place.raw[axis] - at.raw[axis]) * scale);
+        pull->sum[axis] += (int64_t)llround(part * UNIT);
+    }
+    if (squared < pull->least || (squared == pull->least && comes_before(place, pull->nearest))) {
+        pull->least = squared;
+        pull->nearest = place;
+    }
+}
+
+static Pull pull_of(const Attracting *attracting, const FrLiveBudAt *bud) {
+    const FrParticles *particles = attracting->growth->particles;
+    FrRun runs[FR_MAX_RUNS];
+    Pull pull = {.least = INFINITY};
+    float widest = fmaxf(bud->influence, particles->widest_influence);
+    uint32_t count = fr_particles_near(particles, bud->world, widest, runs);
+    for (uint32_t r = 0; r < count; r++) {
+        for (uint32_t i = runs[r].begin; i < runs[r].end; i++) {
+            float squared = squared_distance(particles, i, bud->world);
+            if (squared > 0 && attracting->nearest[i] == code(squared, bud->bud->key)) {
+                vec3s place = {{particles->x[i], particles->y[i], particles->z[i]}};
+                add_pull(&pull, place, bud->world, squared);
+            }
+        }
+    }
+    return pull;
+}
+
 static void sum_up(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Attracting *attracting = data;
-    const FrParticles *particles = attracting->growth->particles;
-    FrRun runs[FR_MAX_RUNS];
     for (size_t b = begin; b < end; b++) {
         const FrLiveBudAt *bud = &attracting->buds[b];
-        vec3s sum = towards_directions(particles, bud->world), nearest = sum;
-        float least = INFINITY;
-        float widest = fmaxf(bud->influence, particles->widest_influence);
-        uint32_t count = fr_particles_near(particles, bud->world, widest, runs);
-        for (uint32_t r = 0; r < count; r++) {
-            for (uint32_t i = runs[r].begin; i < runs[r].end; i++) {
-                float squared = squared_distance(particles, i, bud->world);
-                if (attracting->nearest[i] != code(squared, bud->bud->key) || squared <= 0) {
-                    continue;
-                }
-                vec3s place = {{particles->x[i], particles->y[i], particles->z[i]}};
-                vec3s towards =
-                    glms_vec3_scale(glms_vec3_sub(place, bud->world), 1 / sqrtf(squared));
-                sum = glms_vec3_add(sum, towards);
-                nearest = squared < least ? towards : nearest;
-                least = fminf(least, squared);
-            }
+        vec3s far = towards_directions(attracting->growth->particles, bud->world);
+        Pull pull = pull_of(attracting, bud);
+        vec3s nearest = far, all = far;
+        if (pull.least < INFINITY) {
+            vec3s towards = glms_vec3_sub(pull.nearest, bud->world);
+            nearest = glms_vec3_add(far, glms_vec3_scale(towards, 1 / sqrtf(pull.least)));
         }
-        vec3s wanted = bud->params->particle_mean == FR_PARTICLES_NEAREST ? nearest : sum;
-        float length = glms_vec3_norm(wanted);
+        for (int axis = 0; axis < 3; axis++) {
+            all.raw[axis] += (float)((double)pull.sum[axis] / UNIT);
+        }
+        vec3s wanted = bud->params->particle_mean == FR_PARTICLES_NEAREST ? nearest : all;
         // Particles on both sides cancel out; then the nearest decides.
-        if (length < 1e-4f) {
+        if (glms_vec3_norm(wanted) < 1e-4f) {
             wanted = nearest;
-            length = glms_vec3_norm(wanted);
         }
+        float length = glms_vec3_norm(wanted);
         bud->bud->attraction = length > 1e-4f ? glms_vec3_scale(wanted, 1 / length) : (vec3s){0};
     }
 }

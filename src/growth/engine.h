@@ -58,8 +58,8 @@ typedef struct FrGrownAxis {
     uint16_t birth;       ///< step
     uint8_t row;          ///< order of the species it is built by
     uint8_t order;        ///< botanical
+    float vigour;         ///< flux, priority: that entered it in this step
     uint8_t is_growing;   ///< has an apex
-    uint8_t is_shed;
 } FrGrownAxis;
 
 /// Nodes of one plant, parents before children.
@@ -70,8 +70,7 @@ typedef struct FrGrownNodes {
     vec3s *at; ///< tip, relative to the seed
     uint16_t *birth;
     uint8_t *light; ///< at birth and as long as a bud sits there, 255 full
-    uint8_t *is_shed;
-    float *wood; ///< r^e of branches that have fallen off here, in tips
+    float *wood;    ///< r^e of branches that have fallen off here, in tips
 } FrGrownNodes;
 
 typedef struct FrGrownPlant {
@@ -121,6 +120,12 @@ typedef struct FrBytesReader {
     size_t left;
 } FrBytesReader;
 
+/// Memory of one worker, kept from use to use.
+typedef struct FrScratch {
+    void *memory;
+    size_t size;
+} FrScratch;
+
 /// Whose number an owner of voxels is.
 typedef struct FrOwner {
     uint32_t plant, axis;
@@ -153,6 +158,8 @@ struct FrGrowth {
     uint32_t proposal_capacity;
     FrLiveBudAt *live; ///< all live buds, the growing ones first
     uint32_t live_capacity;
+    FrScratch *scratch; ///< by worker
+    int scratch_count;
     uint64_t step;
     double seconds, light_seconds; ///< of the last step
     GPtrArray *history;            ///< GBytes of states before steps, the last one last
@@ -204,6 +211,12 @@ FrDigest fr_grown_digest(const FrGrownPlant *plant);
 void fr_grown_reserve(FrGrownPlant *plant, uint32_t nodes, uint32_t axes, uint32_t buds);
 uint64_t fr_grown_bytes(const FrGrownPlant *plant);
 
+/// At least so many bytes, as they are.
+void *fr_scratch_take(FrScratch *scratch, size_t size);
+/// Cells of an internode from the tip of `parent` (FR_NONE: the seed) to a place.
+uint32_t fr_growth_walk(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t parent,
+                        vec3s to, FrCell *cells);
+
 // ---- growth.c ---------------------------------------------------------------------------------
 /// Where a bud stands.
 vec3s fr_bud_world(const FrGrownPlant *plant, const FrLiveBud *bud);
@@ -237,6 +250,10 @@ void fr_growth_pipes(const FrGrownPlant *plant, double taper, double *pipes);
 /// Radii of so much wood, m.
 void fr_growth_radii(const FrReadySpecies *species, const double *pipes, uint32_t count,
                      float *radii);
+
+// ---- shed.c -----------------------------------------------------------------------------------
+/// Drops branches, and takes them out of the columns.
+void fr_growth_shed(FrGrowth *growth, FrGrownPlant *plant, FrScratch *scratch);
 
 // ---- envelope.c -------------------------------------------------------------------------------
 /// True if a place, relative to the seed, is within the species' envelope.

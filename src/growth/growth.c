@@ -148,6 +148,10 @@ void fr_growth_free(FrGrowth *growth) {
     g_free(growth->open);
     g_free(growth->sort_keys);
     g_free(growth->live);
+    for (int i = 0; i < growth->scratch_count; i++) {
+        g_free(growth->scratch[i].memory);
+    }
+    g_free(growth->scratch);
     g_ptr_array_free(growth->history, TRUE);
     g_free(growth);
 }
@@ -258,7 +262,7 @@ void fr_growth_reserve_owners(FrGrowth *growth, uint32_t count) {
 bool fr_grown_is_leafy(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t node) {
     const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
     const FrGrownNodes *nodes = &plant->nodes;
-    return params->leaves > 0 && !nodes->is_shed[node] &&
+    return params->leaves > 0 &&
            growth->step < (uint64_t)nodes->birth[node] + (uint64_t)params->leaf_life &&
            nodes->light[node] >= params->leaf_light * 255;
 }
@@ -267,10 +271,10 @@ static void count_plant(const FrGrowth *growth, const FrGrownPlant *plant, FrGro
     const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
     stats->plants += !plant->is_left_out;
     for (uint32_t i = 0; i < plant->axis_count; i++) {
-        stats->axes += plant->axes[i].first != FR_NONE && !plant->axes[i].is_shed;
+        stats->axes += plant->axes[i].first != FR_NONE;
     }
+    stats->nodes += plant->nodes.count;
     for (uint32_t i = 0; i < plant->nodes.count; i++) {
-        stats->nodes += !plant->nodes.is_shed[i];
         stats->leaves += fr_grown_is_leafy(growth, plant, i) ? (uint64_t)params->leaves : 0;
     }
     for (uint32_t i = 0; i < plant->bud_count; i++) {

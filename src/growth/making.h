@@ -11,8 +11,8 @@ typedef struct FrMaking {
     const FrGrownPlant *from;
     const FrReadySpecies *species;
     FrPlant *plant;
-    uint32_t *node_of; ///< by grown node: the made one at its tip; FR_NONE: shed
-    uint32_t *axis_of; ///< by grown axis; FR_NONE: shed or without internodes
+    uint32_t *node_of; ///< by grown node: the made one at its tip
+    uint32_t *axis_of; ///< by grown axis; FR_NONE: without internodes
     float *radii;      ///< by grown node
     uint32_t leaf_component;
 } FrMaking;

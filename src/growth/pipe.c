@@ -10,9 +10,6 @@ void fr_growth_pipes(const FrGrownPlant *plant, double taper, double *pipes) {
         pipes[i] = (double)nodes->wood[i];
     }
     for (uint32_t i = nodes->count; i-- > 0;) {
-        if (nodes->is_shed[i]) {
-            continue;
-        }
         // A tip has one pipe, and each internode adds a little for its own leaves.
         pipes[i] = pipes[i] > 0 ? pipes[i] + taper : 1;
         if (nodes->parent[i] != FR_NONE) {

@@ -14,7 +14,6 @@ static void grow_nodes(FrGrownNodes *nodes, uint32_t capacity) {
     nodes->at = g_renew(vec3s, nodes->at, capacity);
     nodes->birth = g_renew(uint16_t, nodes->birth, capacity);
     nodes->light = g_renew(uint8_t, nodes->light, capacity);
-    nodes->is_shed = g_renew(uint8_t, nodes->is_shed, capacity);
     nodes->wood = g_renew(float, nodes->wood, capacity);
 }
 
@@ -29,7 +28,6 @@ uint32_t fr_grown_add_node(FrGrownPlant *plant, uint32_t parent, uint32_t axis, 
     nodes->at[node] = at;
     nodes->birth[node] = 0;
     nodes->light[node] = 255;
-    nodes->is_shed[node] = 0;
     nodes->wood[node] = 0;
     FrGrownAxis *of = &plant->axes[axis];
     if (of->first == FR_NONE) {
@@ -88,7 +86,6 @@ void fr_grown_clear(FrGrownPlant *plant) {
     g_free(nodes->at);
     g_free(nodes->birth);
     g_free(nodes->light);
-    g_free(nodes->is_shed);
     g_free(nodes->wood);
     g_free(plant->axes);
     g_free(plant->buds);
@@ -103,13 +100,21 @@ FrDigest fr_grown_digest(const FrGrownPlant *plant) {
     digest = fr_digest(digest, nodes->at, nodes->count * sizeof *nodes->at);
     digest = fr_digest(digest, nodes->birth, nodes->count * sizeof *nodes->birth);
     digest = fr_digest(digest, nodes->light, nodes->count * sizeof *nodes->light);
-    digest = fr_digest(digest, nodes->is_shed, nodes->count * sizeof *nodes->is_shed);
     digest = fr_digest(digest, nodes->wood, nodes->count * sizeof *nodes->wood);
     return fr_digest(digest, plant->buds, plant->bud_count * sizeof *plant->buds);
 }
 
 uint64_t fr_grown_bytes(const FrGrownPlant *plant) {
-    enum { A_NODE = 4 + 4 + 12 + 2 + 1 + 1 + 4 };
+    enum { A_NODE = 4 + 4 + 12 + 2 + 1 + 4 };
     return (uint64_t)plant->nodes.count * A_NODE + plant->axis_count * sizeof(FrGrownAxis) +
            plant->bud_count * sizeof(FrLiveBud);
+}
+
+void *fr_scratch_take(FrScratch *scratch, size_t size) {
+    if (size > scratch->size) {
+        g_free(scratch->memory);
+        scratch->size = size + size / 2;
+        scratch->memory = g_malloc(scratch->size);
+    }
+    return scratch->memory;
 }

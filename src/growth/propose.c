@@ -98,12 +98,17 @@ static bool walk_is_blocked(const FrGrowth *growth, const FrProposal *proposal, 
     return false;
 }
 
+uint32_t fr_growth_walk(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t parent,
+                        vec3s to, FrCell *cells) {
+    double begin[3], end[3];
+    world_of(plant, parent == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[parent], begin);
+    world_of(plant, to, end);
+    return fr_voxels_walk(growth->voxels, begin, end, cells);
+}
+
 static uint32_t walk(const FrGrowth *growth, const FrProposal *proposal, FrCell *cells) {
     const FrGrownPlant *plant = &growth->plants[proposal->plant];
-    double from[3], to[3];
-    world_of(plant, bud_at(plant, &plant->buds[proposal->bud]), from);
-    world_of(plant, proposal->at, to);
-    return fr_voxels_walk(growth->voxels, from, to, cells);
+    return fr_growth_walk(growth, plant, plant->buds[proposal->bud].node, proposal->at, cells);
 }
 
 static bool is_in_way(const FrGrowth *growth, const FrProposal *proposal, bool by_claims) {

@@ -131,7 +131,7 @@ static bool axes_are_right(const FrGrowth *growth, const FrGrownPlant *plant) {
         const FrGrownAxis *axis = &plant->axes[i];
         if (!is_node(plant, axis->bearer) || !is_node(plant, axis->first) ||
             !is_node(plant, axis->last) || (axis->first == FR_NONE) != (axis->last == FR_NONE) ||
-            axis->is_growing > 1 || axis->is_shed > 1 ||
+            axis->is_growing > 1 || !isfinite(axis->vigour) ||
             (axis->owner != FR_NONE && axis->owner >= growth->owner_count)) {
             return false;
         }

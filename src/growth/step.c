@@ -116,7 +116,6 @@ static void begin_plants(void *data, size_t begin, size_t end, int worker) {
 }
 
 static void end_plants(void *data, size_t begin, size_t end, int worker) {
-    (void)worker;
     FrGrowth *growth = data;
     for (size_t p = begin; p < end; p++) {
         FrGrownPlant *plant = &growth->plants[p];
@@ -128,6 +127,17 @@ static void end_plants(void *data, size_t begin, size_t end, int worker) {
             }
         }
         plant->bud_count = left;
+        fr_growth_shed(growth, plant, &growth->scratch[worker]);
+    }
+}
+
+static void room_for_workers(FrGrowth *growth, const FrContext *context) {
+    int threads = fr_pool_threads(context->pool);
+    if (threads > growth->scratch_count) {
+        growth->scratch = g_renew(FrScratch, growth->scratch, threads);
+        for (; growth->scratch_count < threads; growth->scratch_count++) {
+            growth->scratch[growth->scratch_count] = (FrScratch){0};
+        }
     }
 }
 
@@ -209,6 +219,7 @@ bool fr_growth_undo(FrGrowth *growth) {
 FrStatus fr_growth_step(FrGrowth *growth, const FrContext *context) {
     gint64 begin = g_get_monotonic_time();
     remember(growth);
+    room_for_workers(growth, context);
     growth->step++;
     FrStatus status = sense(growth, context);
     if (status != FR_OK) {

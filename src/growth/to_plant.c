@@ -29,7 +29,7 @@ static void add_axes(FrMaking *making) {
     for (uint32_t i = 0; i < from->axis_count; i++) {
         const FrGrownAxis *axis = &from->axes[i];
         making->axis_of[i] = FR_NONE;
-        if (axis->first == FR_NONE || axis->is_shed) {
+        if (axis->first == FR_NONE) {
             continue;
         }
         uint32_t made = fr_plant_append_axes(plant, 1);
@@ -186,10 +186,7 @@ FrStatus fr_growth_plant(const FrGrowth *growth, uint32_t plant, const FrContext
     find_radii(&making);
     Tangents tangents = tangents_of(from);
     for (uint32_t i = 0; i < from->nodes.count; i++) {
-        making.node_of[i] = FR_NONE;
-        if (!from->nodes.is_shed[i]) {
-            add_internode(&making, &tangents, i);
-        }
+        add_internode(&making, &tangents, i);
     }
     fr_making_add_leaves(&making);
     add_buds(&making);

@@ -1,48 +1,191 @@
-/// The step of growing plants: what single buds do, and that nothing depends on order.
-#include "frond/growth.h"
+/// The step of growing plants as a whole: what single buds do, and that nothing depends on order.
+#include "growing.h"
 
-#include <cglm/struct.h>
-#include <math.h>
-
-static FrGrowth *make(const FrSpecies *species, const FrSeed *seeds, uint32_t count) {
-    FrContext context = fr_context_default();
-    FrGrowthSetup setup = {.params = fr_growth_default(), .species = species, .species_count = 1};
-    FrGrowth *growth;
-    g_assert_cmpint(fr_growth_new(&setup, &context, &growth), ==, FR_OK);
-    g_assert_cmpint(fr_growth_add_seeds(growth, seeds, count, &context), ==, FR_OK);
-    return growth;
-}
-
-static void step(FrGrowth *growth, int count) {
-    FrContext context = fr_context_default();
-    for (int i = 0; i < count; i++) {
-        g_assert_cmpint(fr_growth_step(growth, &context), ==, FR_OK);
-    }
-}
-
-static void drop(FrSpecies *species) {
-    fr_params_clear(fr_species_table(), &species->params);
-}
+enum { PLANTS = 12, STEPS = 12 };
 
 /// E05: a bud alone makes an internode a step.
 static void test_single(void) {
-    FrSpecies species = fr_species_default();
-    species.params.model = FR_MODEL_OPEN;
-    species.params.laterals = 0;
-    FrSeed seed = {.id = 1};
-    FrGrowth *growth = make(&species, &seed, 1);
-    g_assert_cmpuint(fr_growth_stats(growth).active_buds, ==, 1);
-    step(growth, 9);
-    FrGrowthStats stats = fr_growth_stats(growth);
+    World world;
+    world_init(&world);
+    world_set(&world, "model", "open");
+    world_set(&world, "laterals", "0");
+    world_sow_one(&world);
+    g_assert_cmpuint(fr_growth_stats(world.growth).active_buds, ==, 1);
+    FrGrowthStats stats = world_step(&world, 9);
     g_assert_cmpuint(stats.nodes, ==, 9);
     g_assert_cmpuint(stats.axes, ==, 1);
     g_assert_cmpuint(stats.active_buds, ==, 1);
-    fr_growth_free(growth);
-    drop(&species);
+    world_clear(&world);
+}
+
+/// A close stand with everything on: collision, sky, particles, shedding.
+static void init_stand(World *world) {
+    world_init(world);
+    world_set(world, "model", "open");
+    world_set(world, "dormancy", "0");
+    world_set(world, "particles", "60");
+    world_set(world, "auxin-reach", "2");
+}
+
+static void place(FrSeed *seeds, bool is_reversed) {
+    for (uint32_t i = 0; i < PLANTS; i++) {
+        FrSeed *seed = &seeds[is_reversed ? PLANTS - 1 - i : i];
+        *seed = (FrSeed){.at = {0.7 * (i % 4) + 0.05 * i, 0.8 * (i / 4), 0}, .id = 100 + i};
+    }
+}
+
+static void grow_stand(int threads, bool is_reversed, FrDigest *digests) {
+    World world;
+    init_stand(&world);
+    world.context.pool = fr_pool_new(threads);
+    FrSeed seeds[PLANTS];
+    place(seeds, is_reversed);
+    world_sow(&world, seeds, PLANTS);
+    for (int i = 0; i < STEPS; i++) {
+        FrGrowthStats stats = world_step(&world, 1);
+        digests[i] = stats.digest;
+        if (i == STEPS - 1) { // the stand must be one where all that happens
+            g_assert_cmpuint(stats.nodes, >, 800);
+            g_assert_cmpuint(stats.collisions, >, 0);
+            g_assert_cmpuint(stats.particles, >, 0);
+        }
+    }
+    fr_pool_free(world.context.pool);
+    world_clear(&world);
+}
+
+static void assert_same(const FrDigest *digests, const FrDigest *wanted) {
+    for (int i = 0; i < STEPS; i++) {
+        g_assert_cmpuint(digests[i], ==, wanted[i]);
+    }
+}
+
+static void test_threads(void) {
+    FrDigest wanted[STEPS], digests[STEPS];
+    grow_stand(1, false, wanted);
+    static const int threads[] = {2, 3, 8};
+    for (size_t i = 0; i < G_N_ELEMENTS(threads); i++) {
+        grow_stand(threads[i], false, digests);
+        assert_same(digests, wanted);
+    }
+}
+
+/// E22.
+static void test_shuffled(void) {
+    FrDigest wanted[STEPS], digests[STEPS];
+    grow_stand(1, false, wanted);
+    grow_stand(2, true, digests);
+    assert_same(digests, wanted);
+}
+
+/// E01: a run that is saved and resumed after every step ends as one that is not.
+static void test_resumed(void) {
+    FrDigest wanted[STEPS];
+    grow_stand(1, false, wanted);
+    World world;
+    init_stand(&world);
+    FrSeed seeds[PLANTS];
+    place(seeds, false);
+    world_sow(&world, seeds, PLANTS);
+    for (int i = 0; i < STEPS; i++) {
+        FrGrowthStats stats = world_step(&world, 1);
+        g_assert_cmpuint(stats.digest, ==, wanted[i]);
+        GBytes *bytes = fr_growth_save(world.growth);
+        fr_growth_free(world.growth);
+        g_assert_cmpint(fr_growth_new(&world.setup, &world.context, &world.growth), ==, FR_OK);
+        gsize size;
+        const void *data = g_bytes_get_data(bytes, &size);
+        g_assert_cmpint(fr_growth_restore(world.growth, data, size, (FrSpan){0}, &world.context),
+                        ==, FR_OK);
+        g_assert_cmpuint(fr_growth_stats(world.growth).digest, ==, wanted[i]);
+        g_bytes_unref(bytes);
+    }
+    world_clear(&world);
+}
+
+static void test_undone(void) {
+    World world;
+    init_stand(&world);
+    world.setup.params.history = 3;
+    FrSeed seeds[PLANTS];
+    place(seeds, false);
+    world_sow(&world, seeds, PLANTS);
+    g_assert_false(fr_growth_undo(world.growth));
+    FrDigest before = world_step(&world, 5).digest;
+    FrDigest after = world_step(&world, 3).digest;
+    for (int i = 0; i < 3; i++) {
+        g_assert_true(fr_growth_undo(world.growth));
+    }
+    g_assert_cmpuint(fr_growth_stats(world.growth).digest, ==, before);
+    g_assert_cmpuint(fr_growth_stats(world.growth).step, ==, 5);
+    g_assert_false(fr_growth_undo(world.growth));
+    g_assert_cmpuint(world_step(&world, 3).digest, ==, after);
+    world_clear(&world);
+}
+
+/// Wrong bytes change nothing, whichever byte is wrong and wherever they end.
+static void test_damaged(void) {
+    World world;
+    init_stand(&world);
+    FrSeed seeds[PLANTS];
+    place(seeds, false);
+    world_sow(&world, seeds, PLANTS);
+    FrDigest wanted = world_step(&world, 4).digest;
+    GBytes *bytes = fr_growth_save(world.growth);
+    gsize size;
+    uint8_t *data = g_bytes_unref_to_data(bytes, &size);
+    for (gsize at = 0; at < size; at += 97) {
+        data[at] ^= 0x40;
+        g_assert_cmpint(fr_growth_restore(world.growth, data, size, (FrSpan){0}, &world.context),
+                        ==, FR_ERR_DOCUMENT);
+        data[at] ^= 0x40;
+        g_assert_cmpint(fr_growth_restore(world.growth, data, at, (FrSpan){0}, &world.context), ==,
+                        FR_ERR_DOCUMENT);
+    }
+    g_assert_cmpuint(fr_growth_stats(world.growth).digest, ==, wanted);
+    g_assert_cmpstr(fr_diags_get(world.context.diags, 0)->code, ==, "growth-state");
+    g_free(data);
+    world_clear(&world);
+}
+
+/// Even with a right digest no number in the bytes leads out of the arrays.
+static void test_hostile(void) {
+    World world;
+    init_stand(&world);
+    FrSeed seeds[PLANTS];
+    place(seeds, false);
+    world_sow(&world, seeds, PLANTS);
+    world_step(&world, 3);
+    GBytes *bytes = fr_growth_save(world.growth);
+    gsize size;
+    uint8_t *data = g_bytes_unref_to_data(bytes, &size);
+    gsize body = size - sizeof(FrDigest);
+    for (gsize at = 0; at < body; at += 13) {
+        uint8_t old = data[at];
+        data[at] = (uint8_t)(old + 0x81);
+        FrDigest digest = fr_digest(0, data, body);
+        memcpy(data + body, &digest, sizeof digest);
+        FrStatus status = fr_growth_restore(world.growth, data, size, (FrSpan){0}, &world.context);
+        if (status == FR_OK) {
+            world_step(&world, 1);
+            fr_plant_free(world_plant(&world, 0));
+        }
+        data[at] = old;
+    }
+    g_free(data);
+    world_clear(&world);
 }
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/growth/growth/a bud without laterals makes an internode a step", test_single);
+    g_test_add_func("/growth/growth/the digest of every step is the same for any thread count",
+                    test_threads);
+    g_test_add_func("/growth/growth/the order of seeds changes nothing", test_shuffled);
+    g_test_add_func("/growth/growth/saving and resuming after every step changes nothing",
+                    test_resumed);
+    g_test_add_func("/growth/growth/undone steps can be made again", test_undone);
+    g_test_add_func("/growth/growth/damaged states are refused and change nothing", test_damaged);
+    g_test_add_func("/growth/growth/hostile states crash nothing", test_hostile);
     return g_test_run();
 }
