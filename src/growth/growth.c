@@ -171,8 +171,10 @@ FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup, const Fr
         *growth = old;
         old = failed;
         fr_voxels_clear_solid(growth->voxels);
-        FrStatus again = fr_growth_stand_obstacles(growth, context);
-        FR_ASSERT(again == FR_OK); // they stood there before
+        FrContext unlimited = fr_context_default(); // they stood there before
+        unlimited.limits.bytes = UINT64_MAX;
+        FrStatus again = fr_growth_stand_obstacles(growth, &unlimited);
+        FR_ASSERT(again == FR_OK);
     }
     drop_species(&old);
     drop_obstacles(&old);

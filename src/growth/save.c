@@ -306,8 +306,10 @@ FrStatus fr_growth_restore(FrGrowth *growth, const void *bytes, size_t size, FrS
     }
     if (is_right) {
         exchange(growth, &read);
-        FrStatus status = fr_growth_stand_obstacles(growth, context);
-        FR_ASSERT(status == FR_OK); // they stood in the old voxels too
+        FrContext unlimited = fr_context_default(); // they stood in the old voxels too
+        unlimited.limits.bytes = UINT64_MAX;
+        FrStatus status = fr_growth_stand_obstacles(growth, &unlimited);
+        FR_ASSERT(status == FR_OK);
     } else {
         fr_diags_add(context->diags, FR_ERROR, "growth-state", span,
                      "this is no saved state of growth, or one of another document");

@@ -1,6 +1,6 @@
-// Branches that fall: those whose buds are mostly dark (Beneš, Andrysco, Šťava 2009, section 3.6: 80 %
-// of the buds in less than 20 % light), those that bring less vigour than they cost (Palubicki et
-// al. 2009), and those that have long been dead. Their cells become free, their place remembers
+// Branches that fall: those whose buds are mostly dark (Beneš, Andrysco, Šťava 2009, section 3.6:
+// 80 % of the buds in less than 20 % light), those that bring less vigour than they cost (Palubicki
+// et al. 2009), and those that have long been dead. Their cells become free, their place remembers
 // their wood.
 #include "growth/engine.h"
 

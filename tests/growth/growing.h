@@ -5,8 +5,8 @@
 #include "frond/growth.h"
 
 #include <cglm/struct.h>
-#include <string.h>
 #include <math.h>
+#include <string.h>
 
 typedef struct World {
     FrContext context;
