@@ -66,6 +66,11 @@ FR_API FR_MUST_USE FrStatus fr_skin_plant(const FrPlant *plant, const FrSkinPara
 FR_API FR_MUST_USE FrStatus fr_skin_shape(const FrPlant *plant, uint32_t shape,
                                           const FrSkinParams *params, FrUpAxis up,
                                           const FrContext *context, FrMesh **mesh);
+/// What the level of detail does to organs, for whoever places instances of shapes: the factor of
+/// each one's scale, 0 where it is left out or not seen. `factors` has one element an organ. Fails
+/// as fr_skin_plant() does where shapes are too large.
+FR_API FR_MUST_USE FrStatus fr_skin_organ_factors(const FrPlant *plant, const FrSkinParams *params,
+                                                  const FrContext *context, float *factors);
 FR_API void fr_mesh_free(FrMesh *mesh);
 /// Picture coordinates at the barycentric (u, v) of a triangle of a part.
 FR_API void fr_mesh_uv(const FrMesh *mesh, uint32_t part, uint32_t triangle, float u, float v,

@@ -64,6 +64,10 @@ static json_t *material_of(const FrSurface *surface, json_t *textures) {
                             json_pack("{s:{s:f}}", CLEAR, "transmissionFactor",
                                       (1 - params.mirror) * params.clear));
     }
+    if (params.translucency > 0.0) {
+        json_object_set_new(material, "extras",
+                            json_pack("{s:f}", "translucency", params.translucency));
+    }
     return material;
 }
 

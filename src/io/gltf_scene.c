@@ -68,9 +68,9 @@ static FrGltfPose stand_pose(const FrStand *stand) {
     };
 }
 
-static FrGltfPose organ_pose(const FrPlant *plant, uint32_t organ) {
+static FrGltfPose organ_pose(const FrPlant *plant, const FrOrganGroup *group, guint i) {
     double at[3], q[4], scale;
-    fr_organ_group_pose(plant, organ, at, q, &scale);
+    fr_organ_group_pose(plant, group, i, at, q, &scale);
     return (FrGltfPose){
         .at = {at[0], at[2], -at[1]}, .rotation = {q[0], q[2], -q[1], q[3]}, .scale = scale};
 }
@@ -90,13 +90,15 @@ typedef struct FrGltfGroups {
     FrGltfGroup *meshes;
 } FrGltfGroups;
 
-static void groups_init(FrGltfGroups *groups, const FrPlant *plant) {
-    groups->organs = fr_organ_groups_new(plant);
+static FrStatus groups_init(FrGltfGroups *groups, const FrPlant *plant, const FrSkinParams *skin,
+                            const FrContext *context) {
+    FrStatus status = fr_organ_groups_new(plant, skin, context, &groups->organs);
     groups->meshes = g_new0(FrGltfGroup, MAX(groups->organs->len, 1));
     for (guint g = 0; g < groups->organs->len; g++) {
         const FrOrganGroup *group = &g_array_index(groups->organs, FrOrganGroup, g);
         groups->meshes[g] = (FrGltfGroup){.group = group, .mesh = -1, .name = quoted(group->word)};
     }
+    return status;
 }
 
 static void groups_clear(FrGltfGroups *groups) {
@@ -163,7 +165,7 @@ static void make_instances(FrGltf *gltf, const FrPlant *plant, FrGltfGroup *grou
     float(*rotation)[4] = g_malloc_n(count, sizeof *rotation);
     vec3s *scale = g_new(vec3s, count);
     for (guint i = 0; i < count; i++) {
-        FrGltfPose pose = organ_pose(plant, g_array_index(organs, uint32_t, i));
+        FrGltfPose pose = organ_pose(plant, group->group, i);
         for (int k = 0; k < 3; k++) {
             at[i].raw[k] = (float)pose.at[k];
             scale[i].raw[k] = (float)pose.scale;
@@ -203,7 +205,7 @@ static void add_organ_nodes(FrGltf *gltf, const FrPlant *plant, const FrGltfGrou
             continue;
         }
         for (guint i = 0; i < organs->len; i++) {
-            FrGltfPose pose = organ_pose(plant, g_array_index(organs, uint32_t, i));
+            FrGltfPose pose = organ_pose(plant, group->group, i);
             begin_node(gltf, group->name, group->mesh);
             add_pose(gltf->nodes, &pose);
             g_string_append_c(gltf->nodes, '}');
@@ -242,7 +244,8 @@ static FrStatus add_plant(FrGltf *gltf, uint32_t p, const FrMesh *mesh,
     FrGltfGroups groups = {0};
     bool is_grouped = options->leaves != FR_LEAVES_MERGED && options->skin.foliage;
     if (is_grouped) {
-        groups_init(&groups, plant);
+        FrStatus grouped = groups_init(&groups, plant, &options->skin, gltf->context);
+        status = status == FR_OK ? grouped : status;
     }
     if (status == FR_OK && is_grouped) {
         status = make_group_meshes(gltf, plant, &groups, &options->skin);

@@ -1,6 +1,9 @@
 #include "io/organ_groups.h"
 
+#include "frond/digest.h"
+
 #include <math.h>
+#include <string.h>
 
 static void group_clear(gpointer data) {
     FrOrganGroup *group = data;
@@ -16,55 +19,59 @@ static const char *group_word(const FrPlant *plant, uint32_t organ) {
     return shape->kind == FR_SHAPE_BLADE ? "leaf" : "organ";
 }
 
-/// Which nodes are shed or borne by something shed: skin leaves those out, and so must we.
-static bool *gone_nodes(const FrPlant *plant) {
-    const FrNodes *nodes = &plant->nodes;
-    bool *gone = g_new(bool, nodes->count);
-    for (uint32_t i = 0; i < nodes->count; i++) {
-        uint32_t parent = nodes->parent[i];
-        gone[i] = ((nodes->flags[i] | plant->axes.flags[nodes->axis[i]]) & FR_SHED) != 0 ||
-                  (parent != FR_NONE && gone[parent]);
+/// What the organs of a group have in common.
+typedef struct Kind {
+    uint32_t shape, material;
+    float enlarged;
+} Kind;
+
+static guint kind_hash(gconstpointer key) {
+    return (guint)fr_digest(0, key, sizeof(Kind));
+}
+
+static gboolean kind_equal(gconstpointer a, gconstpointer b) {
+    return memcmp(a, b, sizeof(Kind)) == 0;
+}
+
+static void add_organ(GArray *groups, GHashTable *index, const FrPlant *plant, uint32_t organ,
+                      float enlarged) {
+    Kind kind = {plant->organs.shape[organ], plant->organs.material[organ], enlarged};
+    gpointer at;
+    if (!g_hash_table_lookup_extended(index, &kind, NULL, &at)) {
+        FrOrganGroup group = {
+            .shape = kind.shape,
+            .material = kind.material,
+            .word = group_word(plant, organ),
+            .enlarged = enlarged,
+            .organs = g_array_new(FALSE, FALSE, sizeof(uint32_t)),
+        };
+        at = GUINT_TO_POINTER(groups->len);
+        g_hash_table_insert(index, g_memdup2(&kind, sizeof kind), at);
+        g_array_append_val(groups, group);
     }
-    return gone;
+    g_array_append_val(g_array_index(groups, FrOrganGroup, GPOINTER_TO_UINT(at)).organs, organ);
 }
 
-static bool is_seen(const FrPlant *plant, const bool *gone, uint32_t organ) {
-    uint32_t node = plant->organs.node[organ];
-    return (plant->organs.flags[organ] & (FR_SHED | FR_HIDDEN)) == 0 &&
-           (node == FR_NONE || !gone[node]);
-}
-
-GArray *fr_organ_groups_new(const FrPlant *plant) {
-    GArray *groups = g_array_new(FALSE, FALSE, sizeof(FrOrganGroup));
-    g_array_set_clear_func(groups, group_clear);
-    GHashTable *index = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
-    bool *gone = gone_nodes(plant);
-    for (uint32_t o = 0; o < plant->organs.count; o++) {
-        if (!is_seen(plant, gone, o)) {
-            continue;
+FrStatus fr_organ_groups_new(const FrPlant *plant, const FrSkinParams *skin,
+                             const FrContext *context, GArray **groups) {
+    *groups = g_array_new(FALSE, FALSE, sizeof(FrOrganGroup));
+    g_array_set_clear_func(*groups, group_clear);
+    GHashTable *index = g_hash_table_new_full(kind_hash, kind_equal, g_free, NULL);
+    float *factors = g_new(float, MAX(plant->organs.count, 1));
+    FrStatus status = fr_skin_organ_factors(plant, skin, context, factors);
+    for (uint32_t o = 0; status == FR_OK && o < plant->organs.count; o++) {
+        if (factors[o] > 0.0f) {
+            add_organ(*groups, index, plant, o, factors[o]);
         }
-        uint64_t key = (uint64_t)plant->organs.shape[o] << 32 | plant->organs.material[o];
-        gpointer at;
-        if (!g_hash_table_lookup_extended(index, &key, NULL, &at)) {
-            FrOrganGroup group = {
-                .shape = plant->organs.shape[o],
-                .material = plant->organs.material[o],
-                .word = group_word(plant, o),
-                .organs = g_array_new(FALSE, FALSE, sizeof(uint32_t)),
-            };
-            at = GUINT_TO_POINTER(groups->len);
-            g_hash_table_insert(index, g_memdup2(&key, sizeof key), at);
-            g_array_append_val(groups, group);
-        }
-        g_array_append_val(g_array_index(groups, FrOrganGroup, GPOINTER_TO_UINT(at)).organs, o);
     }
     g_hash_table_unref(index);
-    g_free(gone);
-    return groups;
+    g_free(factors);
+    return status;
 }
 
-void fr_organ_group_pose(const FrPlant *plant, uint32_t organ, double at[3], double rotation[4],
-                         double *scale) {
+void fr_organ_group_pose(const FrPlant *plant, const FrOrganGroup *group, guint i, double at[3],
+                         double rotation[4], double *scale) {
+    uint32_t organ = g_array_index(group->organs, uint32_t, i);
     vec3s position;
     versors q;
     fr_plant_organ_pose(plant, organ, &position, &q);
@@ -77,5 +84,5 @@ void fr_organ_group_pose(const FrPlant *plant, uint32_t organ, double at[3], dou
     for (int k = 0; k < 4; k++) {
         rotation[k] = (double)q.raw[k] / norm;
     }
-    *scale = (double)plant->organs.scale[organ];
+    *scale = (double)(plant->organs.scale[organ] * group->enlarged);
 }

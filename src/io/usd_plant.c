@@ -7,8 +7,7 @@ static const char per_vertex[] = " (\n        interpolation = \"vertex\"\n    )"
 // ---- what a plant needs -----------------------------------------------------------------------
 
 static FrStatus make_groups(FrUsd *usd, FrUsdPlant *own, const FrPlant *plant) {
-    FrStatus status = FR_OK;
-    own->groups = fr_organ_groups_new(plant);
+    FrStatus status = fr_organ_groups_new(plant, &usd->options->skin, usd->context, &own->groups);
     own->shapes = g_new0(FrMesh *, MAX(plant->shapes->len, 1));
     own->group_surface = g_new0(uint32_t, MAX(own->groups->len, 1));
     for (guint g = 0; g < own->groups->len && status == FR_OK; g++) {
@@ -133,12 +132,12 @@ static void add_parts(FrUsd *usd, const char *path, const FrMesh *mesh, const Fr
 
 typedef enum FrUsdPose { FR_USD_POSITION, FR_USD_ORIENTATION, FR_USD_SCALE } FrUsdPose;
 
-static void add_poses(FrUsd *usd, const FrPlant *plant, const GArray *organs, const char *what,
+static void add_poses(FrUsd *usd, const FrPlant *plant, const FrOrganGroup *group, const char *what,
                       FrUsdPose kind) {
     fr_usd_begin_list(usd, what);
-    for (guint i = 0; i < organs->len; i++) {
+    for (guint i = 0; i < group->organs->len; i++) {
         double at[3], q[4], scale;
-        fr_organ_group_pose(plant, g_array_index(organs, uint32_t, i), at, q, &scale);
+        fr_organ_group_pose(plant, group, i, at, q, &scale);
         float size = (float)scale;
         float values[3][4] = {
             {(float)at[0], (float)at[1], (float)at[2]},
@@ -160,9 +159,9 @@ static void add_instancer(FrUsd *usd, const char *path, const FrPlant *plant,
         fr_output_text(&usd->output, i == 0 ? "0" : ", 0");
     }
     fr_usd_end_list(usd, NULL);
-    add_poses(usd, plant, group->organs, "point3f[] positions", FR_USD_POSITION);
-    add_poses(usd, plant, group->organs, "quath[] orientations", FR_USD_ORIENTATION);
-    add_poses(usd, plant, group->organs, "float3[] scales", FR_USD_SCALE);
+    add_poses(usd, plant, group, "point3f[] positions", FR_USD_POSITION);
+    add_poses(usd, plant, group, "quath[] orientations", FR_USD_ORIENTATION);
+    add_poses(usd, plant, group, "float3[] scales", FR_USD_SCALE);
     fr_usd_open(usd, "def Scope \"Prototypes\"");
     add_mesh(usd, path, "shape", shape, &shape->parts[0], surface);
     fr_usd_close(usd);

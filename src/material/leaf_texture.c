@@ -82,7 +82,7 @@ void fr_texture_leaf(FrTexture *texture) {
     FrKey key = texture->key;
     FrVenation *venation = fr_venation_new(texture->params, outline, fr_key_child(key, KEY_VEINS),
                                            2.5f / (float)texture->size, texture->context->progress);
-    FrVeinField *veins = fr_vein_field_new(venation, outline, texture->size);
+    FrVeinField *veins = fr_vein_field_new(venation, outline, texture->size, texture->context);
     vec3s blade = fr_texture_base_colour(texture->params, (vec3s){{0.28f, 0.40f, 0.15f}});
     vec3s vein;
     if (!fr_texture_second_colour(texture->params, &vein)) {

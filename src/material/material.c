@@ -246,6 +246,16 @@ const FrImage *fr_material_image(FrMaterial *material, FrMap map, const FrContex
     return image;
 }
 
+static void encode_maps(void *data, size_t begin, size_t end, int worker) {
+    Slot *slots = data;
+    (void)worker;
+    for (size_t map = begin; map < end; map++) {
+        if (slots[map].image != NULL && slots[map].file == NULL) {
+            slots[map].file = fr_image_to_png(slots[map].image);
+        }
+    }
+}
+
 GBytes *fr_material_image_file(FrMaterial *material, FrMap map, const FrContext *context,
                                const char **media_type, FrStatus *status) {
     // Reading the pixels first finds out whether a file is whole before anyone embeds it.
@@ -257,7 +267,8 @@ GBytes *fr_material_image_file(FrMaterial *material, FrMap map, const FrContext 
     pthread_mutex_lock(&material->lock);
     Slot *slot = &material->slots[map];
     if (slot->file == NULL) {
-        slot->file = fr_image_to_png(image);
+        // Whoever wants one of what was made together mostly wants all.
+        fr_parallel_for(context->pool, FR_MAP_COUNT, 1, encode_maps, material->slots, NULL);
     }
     GBytes *file = g_bytes_ref(slot->file);
     pthread_mutex_unlock(&material->lock);

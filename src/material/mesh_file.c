@@ -204,6 +204,43 @@ FrMeshFile *fr_mesh_file_new(vec3s *positions, vec3s *normals, float (*uvs)[2],
     return file;
 }
 
+// ---- text of .obj -------------------------------------------------------------------------------
+
+// What assimp reads as 0 is told here: a place of a vertex that is no number.
+static bool is_vertex_sound(const char *line, const char *end) {
+    for (int k = 0; k < 3; k++) {
+        char *rest;
+        double value = g_ascii_strtod(line, &rest);
+        if (rest == line || rest > end || !isfinite(value)) {
+            return false;
+        }
+        line = rest;
+    }
+    return true;
+}
+
+static bool check_numbers(const char *path, const char *name, FrSpan span, FrDiags *diags) {
+    gchar *text;
+    if (!g_str_has_suffix(name, ".obj") || !g_file_get_contents(path, &text, NULL, NULL)) {
+        return true; // reading it will tell
+    }
+    bool is_sound = true;
+    unsigned number = 1;
+    for (const char *line = text; line != NULL && is_sound; number++) {
+        const char *end = strchr(line, '\n');
+        bool is_vertex = line[0] == 'v' && (line[1] == ' ' || line[1] == '\t');
+        if (is_vertex && !is_vertex_sound(line + 1, end != NULL ? end : text + strlen(text))) {
+            fr_diags_add(diags, FR_ERROR, "wrong-mesh", span,
+                         "'%s' has a vertex in line %u whose place is not three numbers", name,
+                         number);
+            is_sound = false;
+        }
+        line = end != NULL ? end + 1 : NULL;
+    }
+    g_free(text);
+    return is_sound;
+}
+
 // ---- files --------------------------------------------------------------------------------------
 
 FrMeshFile *fr_mesh_file_load(const char *folder, const char *name, FrSpan span,
@@ -221,6 +258,9 @@ FrMeshFile *fr_mesh_file_load(const char *folder, const char *name, FrSpan span,
     } else {
         *status = fr_limit_check((uint64_t)stat_of.st_size, context->limits.document_bytes,
                                  "document-bytes", name, span, context->diags);
+        if (*status == FR_OK && !check_numbers(path, name, span, context->diags)) {
+            *status = FR_ERR_DOCUMENT;
+        }
         file = *status == FR_OK ? fr_mesh_file_import(path, name, span, context, status) : NULL;
     }
     g_free(path);

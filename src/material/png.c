@@ -102,7 +102,7 @@ GBytes *fr_image_to_png(const FrImage *image) {
     png_infop info = png == NULL ? NULL : png_create_info_struct(png);
     FR_ASSERT(info != NULL);
     png_set_write_fn(png, out, append, flush_nothing);
-    png_set_compression_level(png, 6);
+    png_set_compression_level(png, 4);
     png_set_IHDR(png, info, image->width, image->height, 8, type, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png, info);

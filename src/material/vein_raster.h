@@ -10,5 +10,6 @@ typedef struct FrVeinField {
     float *groove; ///< 0 to 1: how deep the texel lies in the valley along a vein
 } FrVeinField;
 
-FrVeinField *fr_vein_field_new(const FrVenation *venation, const FrOutline *outline, int size);
+FrVeinField *fr_vein_field_new(const FrVenation *venation, const FrOutline *outline, int size,
+                               const FrContext *context);
 void fr_vein_field_free(FrVeinField *field);

@@ -284,15 +284,18 @@ void fr_organs_clear(FrOrganPlan *organs) {
 
 // ---- copies ------------------------------------------------------------------------------------
 
+float fr_piece_enlarged(const FrOrganPlan *organs, uint32_t piece) {
+    uint32_t organ = organs->pieces[piece].organ;
+    bool is_leaf = organs->shapes[organs->plan->plant->organs.shape[organ]].is_foliage;
+    return organs->staying < 1.0 && is_leaf ? group_of(organs, organ)->enlarged : 1.0F;
+}
+
 FrOrganPose fr_piece_pose(const FrOrganPlan *organs, uint32_t piece) {
     const FrPlant *plant = organs->plan->plant;
     uint32_t organ = organs->pieces[piece].organ;
     FrOrganPose pose;
     fr_plant_organ_pose(plant, organ, &pose.at, &pose.rotation);
-    pose.scale = plant->organs.scale[organ];
-    if (organs->staying < 1.0 && organs->shapes[plant->organs.shape[organ]].is_foliage) {
-        pose.scale *= group_of(organs, organ)->enlarged;
-    }
+    pose.scale = plant->organs.scale[organ] * fr_piece_enlarged(organs, piece);
     return pose;
 }
 

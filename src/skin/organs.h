@@ -62,6 +62,8 @@ void fr_organs_clear(FrOrganPlan *organs);
 static inline uint32_t fr_piece_slot(const FrOrganPlan *organs, uint32_t piece) {
     return fr_slot(organs->plan->plant->organs.material[organs->pieces[piece].organ]);
 }
+/// How much the level of detail enlarges it.
+float fr_piece_enlarged(const FrOrganPlan *organs, uint32_t piece);
 FrOrganPose fr_piece_pose(const FrOrganPlan *organs, uint32_t piece);
 /// Writes a piece at its place in the slab of its slot, FrPieceWriting says what of it. `box`
 /// receives that of its vertices if they are written.

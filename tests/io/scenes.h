@@ -144,10 +144,11 @@ static inline char *file_bytes(const char *folder, const char *name, size_t *siz
 }
 
 /// Writes the scene as `name` in `folder` with a way to place leaves; must succeed.
-static inline FrIoStats write_scene(const FrScene *scene, const char *folder, const char *name,
-                                    FrLeaves leaves) {
+static inline FrIoStats write_scene_at(const FrScene *scene, const char *folder, const char *name,
+                                       FrLeaves leaves, int lod) {
     FrIoOptions options = fr_io_options_default();
     options.leaves = leaves;
+    options.skin.lod = lod;
     FrContext context = fr_context_default();
     context.diags = fr_diags_new();
     FrIoStats stats;
@@ -161,4 +162,9 @@ static inline FrIoStats write_scene(const FrScene *scene, const char *folder, co
     fr_diags_free(context.diags);
     g_free(path);
     return stats;
+}
+
+static inline FrIoStats write_scene(const FrScene *scene, const char *folder, const char *name,
+                                    FrLeaves leaves) {
+    return write_scene_at(scene, folder, name, leaves, 0);
 }

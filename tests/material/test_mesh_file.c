@@ -117,6 +117,24 @@ static void unsound(void) {
     place_free(&place);
 }
 
+// What the importer would read as 0.
+static void no_numbers(void) {
+    static const char *const texts[] = {
+        "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n", "v 0 0 0\nv 1 0 0\nv 0 -inf 0\nf 1 2 3\n",
+        "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n", "v 0 0 0\nv 1 0 0\nv 0 1e999 0\nf 1 2 3\n"};
+    Place place = place_new();
+    for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
+        place_put(&place, "n.obj", texts[k], strlen(texts[k]));
+        FrStatus status = FR_OK;
+        g_assert_null(load(&place, "n.obj", &status));
+        g_assert_cmpint(status, ==, FR_ERR_DOCUMENT);
+        const FrDiag *diag = fr_diags_get(place.diags, fr_diags_count(place.diags) - 1);
+        g_assert_cmpstr(diag->code, ==, "wrong-mesh");
+        g_assert_nonnull(strstr(diag->text, "line 3"));
+    }
+    place_free(&place);
+}
+
 // Broken copies of a small file in each format: read or refused.
 static void broken(void) {
     static const char stl[] = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
@@ -157,6 +175,7 @@ int main(int argc, char **argv) {
 #define TEST(name, function) g_test_add_func("/material/mesh_file/" name, function)
     TEST("triangles, parts and colours are taken as they are", taken);
     TEST("paths that lead out and unknown formats are refused", refused);
+    TEST("places in .obj files that are no numbers are told with their line", no_numbers);
     TEST("large files are refused before they are read", limited);
     TEST("triangles without a place are left out", unsound);
     TEST("broken files are read or refused", broken);
