@@ -68,9 +68,9 @@ static FrGltfPose stand_pose(const FrStand *stand) {
     };
 }
 
-static FrGltfPose organ_pose(const FrPlant *plant, const FrOrganGroup *group, guint i) {
+static FrGltfPose organ_pose(const FrPlant *plant, const FrOrganGroup *group, uint32_t organ) {
     double at[3], q[4], scale;
-    fr_organ_group_pose(plant, group, i, at, q, &scale);
+    fr_organ_group_pose(plant, group, organ, at, q, &scale);
     return (FrGltfPose){
         .at = {at[0], at[2], -at[1]}, .rotation = {q[0], q[2], -q[1], q[3]}, .scale = scale};
 }
@@ -165,7 +165,7 @@ static void make_instances(FrGltf *gltf, const FrPlant *plant, FrGltfGroup *grou
     float(*rotation)[4] = g_malloc_n(count, sizeof *rotation);
     vec3s *scale = g_new(vec3s, count);
     for (guint i = 0; i < count; i++) {
-        FrGltfPose pose = organ_pose(plant, group->group, i);
+        FrGltfPose pose = organ_pose(plant, group->group, g_array_index(organs, uint32_t, i));
         for (int k = 0; k < 3; k++) {
             at[i].raw[k] = (float)pose.at[k];
             scale[i].raw[k] = (float)pose.scale;
@@ -205,7 +205,7 @@ static void add_organ_nodes(FrGltf *gltf, const FrPlant *plant, const FrGltfGrou
             continue;
         }
         for (guint i = 0; i < organs->len; i++) {
-            FrGltfPose pose = organ_pose(plant, group->group, i);
+            FrGltfPose pose = organ_pose(plant, group->group, g_array_index(organs, uint32_t, i));
             begin_node(gltf, group->name, group->mesh);
             add_pose(gltf->nodes, &pose);
             g_string_append_c(gltf->nodes, '}');

@@ -109,7 +109,8 @@ static void add_organ(FrOpf *opf, uint32_t organ) {
     add_component(opf, plant->organs.component[organ]);
     if (group != FR_NONE) {
         double at[3], q[4], scale;
-        fr_organ_group_pose(plant, organ, at, q, &scale);
+        const FrOrganGroup *own = &g_array_index(opf->plant->groups, FrOrganGroup, group);
+        fr_organ_group_pose(plant, own, organ, at, q, &scale);
         double size = scale * opf->stand->scale * cm;
         vec3s columns[3];
         columns_of((versors){{(float)q[0], (float)q[1], (float)q[2], (float)q[3]}}, columns);

@@ -42,8 +42,7 @@ static FrStatus make_colours(FrOpf *opf, FrOpfPlant *own) {
 
 static FrStatus make_groups(FrOpf *opf, FrOpfPlant *own, uint32_t *meshes) {
     const FrPlant *plant = own->topology.plant;
-    FrStatus status = FR_OK;
-    own->groups = fr_organ_groups_new(plant);
+    FrStatus status = fr_organ_groups_new(plant, &opf->options->skin, opf->context, &own->groups);
     own->meshes = g_new0(FrMesh *, MAX(own->groups->len, 1));
     own->group = g_new(uint32_t, MAX(plant->organs.count, 1));
     own->first_mesh = *meshes;

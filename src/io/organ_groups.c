@@ -69,9 +69,8 @@ FrStatus fr_organ_groups_new(const FrPlant *plant, const FrSkinParams *skin,
     return status;
 }
 
-void fr_organ_group_pose(const FrPlant *plant, const FrOrganGroup *group, guint i, double at[3],
-                         double rotation[4], double *scale) {
-    uint32_t organ = g_array_index(group->organs, uint32_t, i);
+void fr_organ_group_pose(const FrPlant *plant, const FrOrganGroup *group, uint32_t organ,
+                         double at[3], double rotation[4], double *scale) {
     vec3s position;
     versors q;
     fr_plant_organ_pose(plant, organ, &position, &q);

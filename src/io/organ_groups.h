@@ -16,6 +16,6 @@ typedef struct FrOrganGroup {
 /// fr_skin_plant() does; *groups is to be released all the same.
 FrStatus fr_organ_groups_new(const FrPlant *plant, const FrSkinParams *skin,
                              const FrContext *context, GArray **groups);
-/// Position, rotation (exactly of length 1) and scale of organ `i` of a group in its plant, z up.
-void fr_organ_group_pose(const FrPlant *plant, const FrOrganGroup *group, guint i, double at[3],
-                         double rotation[4], double *scale);
+/// Position, rotation (exactly of length 1) and scale of an organ of a group in its plant, z up.
+void fr_organ_group_pose(const FrPlant *plant, const FrOrganGroup *group, uint32_t organ,
+                         double at[3], double rotation[4], double *scale);

@@ -137,7 +137,7 @@ static void add_poses(FrUsd *usd, const FrPlant *plant, const FrOrganGroup *grou
     fr_usd_begin_list(usd, what);
     for (guint i = 0; i < group->organs->len; i++) {
         double at[3], q[4], scale;
-        fr_organ_group_pose(plant, group, i, at, q, &scale);
+        fr_organ_group_pose(plant, group, g_array_index(group->organs, uint32_t, i), at, q, &scale);
         float size = (float)scale;
         float values[3][4] = {
             {(float)at[0], (float)at[1], (float)at[2]},
