@@ -19,6 +19,7 @@
     X(iterations, 100000000, "times around the loops of an L-system in one step")                  \
     X(plants, 100000, "plants of a scene")                                                         \
     X(photons, 200000000, "photons of one light")                                                  \
+    X(plant_triangles, 25000000, "triangles of the surface of one plant")                          \
     X(triangles, 400000000, "triangles of one output")                                             \
     X(pixels, 100000000, "pixels of one picture or texture")                                       \
     X(bytes, 16000000000, "bytes of the arrays of one plant or mesh")

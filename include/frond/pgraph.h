@@ -33,6 +33,9 @@ typedef enum FrComponentKind {
 
 /// Parameters of a component kind; the struct's layout is private to the engine.
 FR_API const FrParamTable *fr_pgraph_table(FrComponentKind kind);
+/// When a parameter would have an effect that has none beside the others, like "mode is density";
+/// NULL if it has one. Free with g_free().
+FR_API char *fr_pgraph_why_unread(FrComponentKind kind, const void *params, const FrParam *row);
 
 /// How a child hangs on its parent (the paper's link kinds, in words).
 typedef enum FrLinkKind {
@@ -67,6 +70,13 @@ FR_API FrComponentKind fr_pgraph_kind(const FrPgraph *graph, uint32_t component)
 FR_API const char *fr_pgraph_id(const FrPgraph *graph, uint32_t component);
 /// The parameter struct that fr_pgraph_table() describes, to be set with fr_params_set().
 FR_API void *fr_pgraph_params(FrPgraph *graph, uint32_t component);
+/// Whether an edit has a place.
+typedef enum FrEditPlace {
+    FR_EDIT_WAITS,     ///< there is none now
+    FR_EDIT_STANDS,    ///< it has one
+    FR_EDIT_OVERRULED, ///< a later edit of the same path has it
+} FrEditPlace;
+
 /// A change of one instance, found by its path in the i-tree: the ids of the components on the way
 /// to it, with the iteration of what is multiplied: trunk/branch[3]/leaf[0]. A camera is left out.
 #define FR_EDIT_PARAMS(X)                                                                          \
@@ -145,7 +155,7 @@ typedef struct FrPgraphCounts {
     uint32_t *parent;       ///< i-tree: parent instance of each, FR_NONE for roots; only on request
     uint32_t *component;    ///< i-tree: component of each; only on request
     uint64_t *place;        ///< i-tree: for fr_pgraph_path(); only on request
-    uint8_t *edits;         ///< by edit: 1 if it has a place; NULL without edits
+    uint8_t *edits;         ///< by edit, FrEditPlace; NULL without edits
 } FrPgraphCounts;
 
 /// Frees the arrays.

@@ -23,9 +23,9 @@ FR_API FrSegment *fr_skeleton_segments(const FrPlant *plant, size_t *count);
 /// the height) are one joint. What is connected is one stem with its branches, rooted in its lowest
 /// end; where lines part, the axis goes on along the thickest, then the straightest. Axes of order
 /// 0 are of the component `stem`, the others of `branch`. Lines that close a loop or have no length
-/// are left out with a warning.
+/// are left out with a warning at `span`; stems that begin high above the others get one too.
 FR_API FR_MUST_USE FrStatus fr_skeleton_weld(const FrSegment *segments, size_t count,
-                                             double tolerance, const char *name,
+                                             double tolerance, const char *name, FrSpan span,
                                              const FrContext *context, FrPlant **plant);
 /// Reads a table of lines: `x y z x y z r` a row, from the first end to the second, numbers
 /// separated by blanks, commas or semicolons; `#` begins a comment, the radius may be left out

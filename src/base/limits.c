@@ -89,10 +89,12 @@ FrStatus fr_limit_check(uint64_t wanted, uint64_t limit, const char *limit_name,
     } else {
         g_snprintf(amount, sizeof amount, "%" G_GUINT64_FORMAT, wanted);
     }
+    char *name = g_strdelimit(g_strdup(limit_name), "_", '-');
     fr_diags_add(diags, FR_ERROR, row != NULL ? row->code : "limit", span,
                  "%s asks for %s; the limit '%s' (%s) is %" G_GUINT64_FORMAT,
-                 culprit != NULL && *culprit != 0 ? culprit : "this", amount, limit_name,
+                 culprit != NULL && *culprit != 0 ? culprit : "this", amount, name,
                  row != NULL ? row->meaning : "in all", limit);
+    g_free(name);
     return FR_ERR_LIMIT;
 }
 

@@ -140,6 +140,15 @@ typedef struct CliChains {
 /// One CliChains for each component; free with g_free().
 CliChains *cli_chains_count(const FrPgraphCounts *counts, uint32_t components);
 
+// ---- branches.c -------------------------------------------------------------------------------
+
+/// Lists the branches of each component of a plant with how strokes select them.
+void cli_branches_print(const FrPlant *plant);
+json_t *cli_branches_json(const FrPlant *plant);
+/// Lists the branches of one component with their paths; none for NULL.
+void cli_branches_print_paths(const FrPlant *plant, const char *component);
+void cli_branches_add_paths(const FrPlant *plant, const char *component, json_t *paths);
+
 // ---- model.c ----------------------------------------------------------------------------------
 
 bool cli_is_model(const char *path);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef struct OptionRow {
     const char *name;
@@ -300,6 +301,17 @@ static const OptionRow rows[] = {
     {"version", 0, NULL, CLI_ALL, "the version of the program", take_version},
 };
 
+/// The default limits, but no single plant or mesh of more than three quarters of the memory.
+static FrLimits limits_here(void) {
+    FrLimits limits = fr_limits_default();
+    long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
+    if (pages > 0 && size > 0) {
+        uint64_t memory = fr_count_multiply((uint64_t)pages, (uint64_t)size);
+        limits.bytes = MIN(limits.bytes, memory / 4 * 3);
+    }
+    return limits;
+}
+
 CliOptions cli_options_new(void) {
     return (CliOptions){.files = g_ptr_array_new_with_free_func(g_free),
                         .outputs = g_ptr_array_new_with_free_func(g_free),
@@ -308,7 +320,7 @@ CliOptions cli_options_new(void) {
                         .time = NAN,
                         .light_axis = -1,
                         .steps = -1,
-                        .limits = fr_limits_default(),
+                        .limits = limits_here(),
                         .nurbs = fr_nurbs_default()};
 }
 

@@ -66,6 +66,19 @@ static FrDiags *told_of(const CliSession *session) {
     return told;
 }
 
+/// Says how to have what a limit has refused.
+static void add_hint(const FrDiags *printed, GString *text) {
+    for (size_t i = 0; i < fr_diags_count(printed); i++) {
+        const char *code = fr_diags_get(printed, i)->code;
+        if (g_str_has_prefix(code, "limit-") && strcmp(code, "limit-value") != 0) {
+            char *name = g_strdelimit(g_strdup(code + strlen("limit-")), "_", '-');
+            g_string_append_printf(text, "frond: if it is meant, --limit %s=N allows more\n", name);
+            g_free(name);
+            return;
+        }
+    }
+}
+
 void cli_session_flush(CliSession *session) {
     FrDiags *printed = told_of(session);
     GString *text = g_string_new(NULL);
@@ -76,6 +89,7 @@ void cli_session_flush(CliSession *session) {
         }
     } else {
         fr_diags_print(printed, text);
+        add_hint(printed, text);
     }
     if (fr_diags_count(printed) > 0) {
         fwrite(text->str, 1, text->len, stderr);

@@ -1,6 +1,9 @@
 /// frond check: what is wrong with documents. They are also grown, for much is known only then.
 #include "cli/cli.h"
 
+#include <math.h>
+#include <string.h>
+
 /// Pictures that a material takes from files can be read.
 static FrStatus check_pictures(CliSession *session, const FrDocument *document) {
     FrStatus worst = FR_OK;
@@ -22,6 +25,35 @@ static FrStatus check_pictures(CliSession *session, const FrDocument *document) 
     return worst;
 }
 
+static bool is_standing(const FrScene *scene, const char *id) {
+    for (guint i = 0; i < scene->plants->len; i++) {
+        const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, i).plant;
+        if (strcmp(plant->name, id) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Plants that stand nowhere are grown all the same.
+static FrStatus check_others(CliSession *session, const FrDocument *document,
+                             const FrScene *scene) {
+    const GPtrArray *definitions = fr_document_plants(document);
+    FrStatus worst = FR_OK;
+    for (guint i = 0; i < definitions->len && worst != FR_CANCELLED; i++) {
+        const FrPlantDef *definition = g_ptr_array_index(definitions, i);
+        if (is_standing(scene, definition->id)) {
+            continue;
+        }
+        FrScene *alone = NULL;
+        FrStatus status = fr_scene_collect(document, definition, session->options->seed, NAN, 1,
+                                           &session->context, &alone);
+        fr_scene_free(alone);
+        worst = MAX(worst, status);
+    }
+    return worst;
+}
+
 FrStatus cli_check(CliSession *session) {
     const GPtrArray *files = session->options->files;
     FrStatus worst = FR_OK;
@@ -36,6 +68,9 @@ FrStatus cli_check(CliSession *session) {
             if (status == FR_OK && fr_document_plants(document)->len > 0) {
                 status =
                     fr_scene_build(document, session->options->seed, &session->context, &scene);
+            }
+            if (scene != NULL) {
+                status = check_others(session, document, scene);
             }
             fr_scene_free(scene);
         }

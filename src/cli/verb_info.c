@@ -156,7 +156,9 @@ static void print_edits(const Grown *grown) {
         const FrEditParams *edit = fr_pgraph_edit_at(graph, k);
         char *what = edit_text(edit);
         printf("  edit %-40s %s%s\n", edit->at, what,
-               grown->counts.edits[k] ? "" : "  (has no place now)");
+               grown->counts.edits[k] == FR_EDIT_WAITS       ? "  (has no place now)"
+               : grown->counts.edits[k] == FR_EDIT_OVERRULED ? "  (a later one has its place)"
+                                                             : "");
         g_free(what);
     }
 }
@@ -167,8 +169,9 @@ static json_t *edits_json(const Grown *grown) {
     for (uint32_t k = 0; k < fr_pgraph_edit_count(graph); k++) {
         const FrEditParams *edit = fr_pgraph_edit_at(graph, k);
         char *what = edit_text(edit);
-        json_array_append_new(edits, json_pack("{s:s, s:s, s:b}", "at", edit->at, "does", what,
-                                               "has_place", grown->counts.edits[k] != 0));
+        json_array_append_new(edits,
+                              json_pack("{s:s, s:s, s:b}", "at", edit->at, "does", what,
+                                        "has_place", grown->counts.edits[k] == FR_EDIT_STANDS));
         g_free(what);
     }
     return edits;
@@ -191,9 +194,12 @@ static void print_plant(const Grown *grown) {
     if (is_lsystem) {
         print_drawn(&grown->drawn);
         print_productions(grown);
-    } else {
+    }
+    if (grown->definition->kind == FR_PLANT_PGRAPH) {
         print_components(grown);
         print_edits(grown);
+    } else {
+        cli_branches_print(grown->plant);
     }
     print_sliders(grown->definition);
 }
@@ -236,6 +242,9 @@ static json_t *plant_json(const Grown *grown) {
         json_object_set_new(plant, "components", components_json(grown));
         json_object_set_new(plant, "edits", edits_json(grown));
     }
+    if (grown->definition->kind != FR_PLANT_PGRAPH) {
+        json_object_set_new(plant, "branches", cli_branches_json(grown->plant));
+    }
     json_object_set_new(plant, "sliders", sliders_json(grown->definition));
     return plant;
 }
@@ -268,6 +277,11 @@ static FrStatus describe_varied(CliSession *session, const FrDocument *document,
     return FR_OK;
 }
 
+/// The branches whose paths are asked for, of a plant that is no p-graph; NULL: none.
+static const char *asked_branches(const CliSession *session, const Grown *grown) {
+    return grown->definition->kind != FR_PLANT_PGRAPH ? session->options->paths : NULL;
+}
+
 /// The component whose paths are asked for, FR_NONE if this plant has none of that name.
 static uint32_t asked_component(const CliSession *session, const Grown *grown) {
     bool has_tree = session->options->paths != NULL && grown->counts.component != NULL;
@@ -288,6 +302,7 @@ static void print_paths(const CliSession *session, const Grown *grown) {
 static json_t *paths_json(const CliSession *session, const Grown *grown) {
     uint32_t component = asked_component(session, grown);
     json_t *paths = json_array();
+    cli_branches_add_paths(grown->plant, asked_branches(session, grown), paths);
     for (uint32_t k = 0; k < grown->counts.instances && component != FR_NONE; k++) {
         if (grown->counts.component[k] == component) {
             char *path = fr_pgraph_path(grown->definition->pgraph, &grown->counts, k);
@@ -312,6 +327,7 @@ static FrStatus describe_grown(CliSession *session, const FrDocument *document,
     } else if (status == FR_OK) {
         print_plant(&grown);
         print_paths(session, &grown);
+        cli_branches_print_paths(grown.plant, asked_branches(session, &grown));
     }
     clear_grown(&grown);
     return status;
@@ -403,8 +419,11 @@ static bool check_paths(const CliOptions *options, const FrDocument *document) {
     GPtrArray *names = g_ptr_array_new();
     bool is_known = options->paths == NULL;
     for (guint i = 0; i < plants->len && !is_known; i++) {
-        const FrPgraph *graph = ((const FrPlantDef *)g_ptr_array_index(plants, i))->pgraph;
-        is_known = fr_pgraph_find(graph, options->paths) != FR_NONE;
+        const FrPlantDef *plant = g_ptr_array_index(plants, i);
+        const FrPgraph *graph = plant->pgraph;
+        // What branches other plants have is known once they are grown.
+        is_known = plant->kind == FR_PLANT_LSYSTEM || plant->kind == FR_PLANT_SKELETON ||
+                   fr_pgraph_find(graph, options->paths) != FR_NONE;
         for (uint32_t c = 0; c < fr_pgraph_count(graph); c++) {
             g_ptr_array_add(names, (char *)fr_pgraph_id(graph, c));
         }

@@ -87,6 +87,26 @@ static void check_files(FrReader *reader, uint32_t node, const FrParamTable *tab
     }
 }
 
+/// Warns of attributes that say something which nothing reads beside the others.
+static void check_effects(FrReader *reader, uint32_t node, FrElementId element,
+                          const void *params) {
+    const FrXmlNode *at = &reader->tree->nodes[node];
+    FrComponentKind kind = (FrComponentKind)(element - FR_ELEMENT_COMPONENT);
+    for (uint32_t i = 0; i < at->attribute_count; i++) {
+        const FrXmlAttribute *attribute = &reader->tree->attributes[at->attribute + i];
+        char *name = fr_xml_name(reader->tree, attribute->name);
+        const FrParam *row = fr_params_find(fr_element(element).table, name);
+        char *when = row != NULL ? fr_pgraph_why_unread(kind, params, row) : NULL;
+        if (when != NULL) {
+            fr_diags_add(reader->diags, FR_WARNING, "without-effect",
+                         fr_xml_span(reader->tree, attribute->name),
+                         "'%s' has no effect here: it is read where %s", name, when);
+        }
+        g_free(when);
+        g_free(name);
+    }
+}
+
 static void read_component(GraphReader *graph, uint32_t node, FrElementId element) {
     FrReader *reader = graph->reader;
     fr_read_check_children(reader, node, element);
@@ -104,7 +124,13 @@ static void read_component(GraphReader *graph, uint32_t node, FrElementId elemen
     }
     g_hash_table_insert(graph->components, id, GUINT_TO_POINTER(component + 1));
     void *params = fr_pgraph_params(graph->graph, component);
+    FrStatus before = reader->status;
+    reader->status = FR_OK;
     fr_read_attributes(reader, node, element, params);
+    if (reader->status == FR_OK) {
+        check_effects(reader, node, element, params);
+    }
+    fr_read_note(reader, before);
     add_materials(graph, node, fr_element(element).table, params);
     if (element == FR_ELEMENT_COMPONENT + FR_COMPONENT_GRAFT) {
         read_defines(graph, node, component);

@@ -85,6 +85,12 @@ static FrStatus check_file(const FrPrototype *prototype, FrDiags *diags) {
     default:
         break;
     }
+    if (is_wanted && (name == NULL || *name == '\0')) {
+        fr_diags_add(diags, FR_ERROR, "missing-attribute", prototype->span,
+                     "'%s' needs the attribute 'file': what its triangles are read from",
+                     prototype->id);
+        return FR_ERR_DOCUMENT;
+    }
     bool is_fine = !is_wanted || fr_mesh_name_check(name, prototype->span, diags);
     return is_fine ? FR_OK : FR_ERR_DOCUMENT;
 }

@@ -224,15 +224,46 @@ static GHashTable *last_edits(const FrPgraph *graph) {
     return last;
 }
 
-void fr_edits_report(const FrPgraph *graph, const uint8_t *has_place, FrDiags *diags) {
+// What stands at the end of an edit's path, or takes its place.
+static uint32_t edited_component(const FrPgraph *graph, const FrGraphEdit *edit) {
+    if (edit->replacement != FR_NONE) {
+        return edit->replacement;
+    }
+    GArray *steps = g_array_new(FALSE, FALSE, sizeof(FrPathStep));
+    uint32_t component = FR_NONE;
+    if (fr_edit_path_read(edit->params.at, steps) && steps->len > 0) {
+        component = fr_pgraph_find(graph, g_array_index(steps, FrPathStep, steps->len - 1).id);
+    }
+    g_array_unref(steps);
+    return component;
+}
+
+// An axis is drawn for a stem.
+static void check_axis(const FrPgraph *graph, const FrGraphEdit *edit, FrDiags *diags) {
+    uint32_t component = edited_component(graph, edit);
+    if (edit->axis == NULL || component == FR_NONE) {
+        return;
+    }
+    FrComponentKind kind = fr_pgraph_kind(graph, component);
+    if (kind != FR_COMPONENT_HORN && kind != FR_COMPONENT_TREE) {
+        fr_diags_add(diags, FR_WARNING, "without-effect", edit->span,
+                     "the axis drawn for '%.64s' has no effect: '%s' is a %s, not a stem",
+                     edit->params.at, fr_pgraph_id(graph, component),
+                     fr_pgraph_table(kind)->element);
+    }
+}
+
+void fr_edits_report(const FrPgraph *graph, uint8_t *places, FrDiags *diags) {
     GHashTable *last = last_edits(graph);
     for (uint32_t k = 0; k < graph->edits->len; k++) {
         const FrGraphEdit *edit = fr_graph_edit(graph, k);
+        check_axis(graph, edit, diags);
         if (GPOINTER_TO_UINT(g_hash_table_lookup(last, edit->params.at)) != k) {
+            places[k] = FR_EDIT_OVERRULED;
             fr_diags_add(diags, FR_WARNING, "duplicate-edit", edit->span,
                          "a later edit of '%.64s' takes the place of this one; write both as one",
                          edit->params.at);
-        } else if (!has_place[k]) {
+        } else if (places[k] == FR_EDIT_WAITS) {
             fr_diags_add(diags, FR_WARNING, "edit-without-place", edit->span,
                          "there is no '%.64s' now, so this edit waits until there is",
                          edit->params.at);

@@ -60,9 +60,8 @@ static inline const FrGraphEdit *fr_graph_edit(const FrPgraph *graph, uint32_t e
 void fr_graph_edit_clear(gpointer edit);
 /// The ends of the internodes of a drawn axis (vec3s), NULL if its text is wrong.
 GArray *fr_drawn_axis(const char *points);
-/// The ends of the internodes of a drawn axis (vec3s), NULL if its text is wrong.
-GArray *fr_drawn_axis(const char *points);
 /// What a build depends on besides its parameters.
 FrDigest fr_edits_digest(FrDigest digest, const FrPgraph *graph);
-/// Warns of edits that found no place, or lost it to a later edit of the same path.
-void fr_edits_report(const FrPgraph *graph, const uint8_t *has_place, FrDiags *diags);
+/// Warns of edits that found no place, or lost it to a later edit of the same path, which is noted
+/// in `places` (FrEditPlace), and of those that say what nothing there reads.
+void fr_edits_report(const FrPgraph *graph, uint8_t *places, FrDiags *diags);

@@ -107,6 +107,36 @@ void fr_job_report(FrSkinJob *job, const FrPlant *plant) {
 
 // ---- the whole ---------------------------------------------------------------------------------
 
+// The component with the most organs, or axes where there are none: who asked for the triangles.
+static const FrComponent *largest_of(const FrPlant *plant) {
+    uint32_t count = plant->components->len, most = 0;
+    uint64_t *made = g_new0(uint64_t, count + 1);
+    bool has_organs = plant->organs.count > 0;
+    const uint32_t *component = has_organs ? plant->organs.component : plant->axes.component;
+    uint32_t rows = has_organs ? plant->organs.count : plant->axes.count;
+    for (uint32_t i = 0; i < rows; i++) {
+        made[MIN(component[i], count)]++;
+    }
+    for (uint32_t c = 1; c < count; c++) {
+        most = made[c] > made[most] ? c : most;
+    }
+    g_free(made);
+    return count > 0 ? &g_array_index(plant->components, FrComponent, most) : NULL;
+}
+
+// A slip of a digit is found here, before there is a mesh.
+static FrStatus check_triangles(const FrPlan *plan, uint64_t triangles, const char *who) {
+    const FrContext *context = plan->context;
+    if (triangles > context->limits.plant_triangles) {
+        const FrComponent *largest = largest_of(plan->plant);
+        return fr_limit_check(triangles, context->limits.plant_triangles, "plant_triangles",
+                              largest != NULL ? largest->id : who,
+                              largest != NULL ? largest->span : (FrSpan){0}, context->diags);
+    }
+    return fr_limit_check(triangles, context->limits.triangles, "triangles", who, (FrSpan){0},
+                          context->diags);
+}
+
 static FrStatus check_limits(const FrSkinJob *job) {
     const FrPlan *plan = &job->wood->plan;
     const FrSlotSum *wood = job->wood->sums;
@@ -121,8 +151,7 @@ static FrStatus check_limits(const FrSkinJob *job) {
     const char *who = plan->plant->name != NULL ? plan->plant->name : "plant";
     uint64_t bytes = fr_count_add(fr_count_multiply(vertices, sizeof(FrVertex)),
                                   fr_count_multiply(indices, sizeof(uint32_t)));
-    FrStatus status = fr_limit_check(indices / 3, context->limits.triangles, "triangles", who,
-                                     (FrSpan){0}, context->diags);
+    FrStatus status = check_triangles(plan, indices / 3, who);
     if (status == FR_OK) {
         status =
             fr_limit_check(bytes, context->limits.bytes, "bytes", who, (FrSpan){0}, context->diags);

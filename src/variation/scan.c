@@ -82,7 +82,7 @@ FrStatus fr_skeleton_grow(const FrSkeleton *skeleton, const char *name, const Fr
                                      skeleton->span, context->diags);
     if (status == FR_OK) {
         status = fr_skeleton_weld(skeleton->segments, skeleton->count, skeleton->params.tolerance,
-                                  name, context, plant);
+                                  name, skeleton->span, context, plant);
     }
     if (status == FR_OK && skeleton->material != NULL) {
         uint32_t material = fr_plant_add_material(*plant, skeleton->material);

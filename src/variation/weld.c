@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define TOLERANCE 1e-5 // of the height
+#define HANGING 0.1f   // … above the lowest end
 #define FINEST 1e-8    // of the extent: what a float still tells apart
 
 /// A cell of the grid that finds near ends.
@@ -27,6 +28,9 @@ typedef struct Weld {
     uint8_t *is_used;    ///< segments
     uint32_t joints;
     uint64_t loops, points;
+    uint64_t parts;   ///< stems that begin on no other
+    uint64_t hanging; ///< … high above the lowest
+    vec3s first_hanging;
 } Weld;
 
 /// An axis to grow: it begins with a segment at a joint.
@@ -212,6 +216,15 @@ static int compare_height(const void *a, const void *b, void *user) {
     return (one > other) - (one < other);
 }
 
+// A stem begins at joint `order[j]`. Stems that stand side by side begin near the lowest.
+static void note_part(Weld *weld, const uint32_t *order, uint32_t j) {
+    float low = weld->at[order[0]].z, high = weld->at[order[weld->joints - 1]].z;
+    weld->parts++;
+    if (weld->at[order[j]].z > low + HANGING * (high - low)) {
+        weld->first_hanging = weld->hanging++ == 0 ? weld->at[order[j]] : weld->first_hanging;
+    }
+}
+
 static void grow_all(FrPlant *plant, Weld *weld) {
     uint32_t *order = g_new(uint32_t, weld->joints + 1);
     for (uint32_t j = 0; j < weld->joints; j++) {
@@ -222,7 +235,11 @@ static void grow_all(FrPlant *plant, Weld *weld) {
     GArray *leading = g_array_new(FALSE, FALSE, sizeof(uint32_t));
     for (uint32_t j = 0; j < weld->joints; j++) {
         if (weld->is_reached[order[j]] == 0) {
+            uint32_t before = plant->axes.count;
             grow_from(plant, weld, order[j], fr_key_child(fr_key_root(0), j), starts, leading);
+            if (plant->axes.count > before) {
+                note_part(weld, order, j);
+            }
         }
     }
     g_array_unref(starts);
@@ -256,14 +273,22 @@ static double measure(const FrSegment *segments, size_t count, double tolerance)
     return fmax(tolerance >= 0 ? tolerance : TOLERANCE * height, FINEST * farthest);
 }
 
-static void warn(const Weld *weld, FrDiags *diags) {
+static void warn(const Weld *weld, FrSpan span, FrDiags *diags) {
     if (weld->loops > 0) {
-        fr_diags_add(diags, FR_WARNING, "skeleton-loop", (FrSpan){0},
+        fr_diags_add(diags, FR_WARNING, "skeleton-loop", span,
                      "%" G_GUINT64_FORMAT " lines that close a loop are left out", weld->loops);
     }
     if (weld->points > 0) {
-        fr_diags_add(diags, FR_WARNING, "skeleton-point", (FrSpan){0},
+        fr_diags_add(diags, FR_WARNING, "skeleton-point", span,
                      "%" G_GUINT64_FORMAT " lines without a length are left out", weld->points);
+    }
+    if (weld->hanging > 0) {
+        fr_diags_add(diags, FR_WARNING, "skeleton-apart", span,
+                     "%" G_GUINT64_FORMAT " of %" G_GUINT64_FORMAT
+                     " stems hang in the air, connected with no other, the lowest from (%.4g, "
+                     "%.4g, %.4g) on; a larger tolerance may join them",
+                     weld->hanging, weld->parts, (double)weld->first_hanging.x,
+                     (double)weld->first_hanging.y, (double)weld->first_hanging.z);
     }
 }
 
@@ -301,16 +326,17 @@ static FrSegment *in_order(const FrSegment *segments, size_t count) {
 }
 
 FrStatus fr_skeleton_weld(const FrSegment *segments, size_t count, double tolerance,
-                          const char *name, const FrContext *context, FrPlant **plant) {
+                          const char *name, FrSpan span, const FrContext *context,
+                          FrPlant **plant) {
     *plant = NULL;
     FrStatus status = fr_limit_check(count, MIN(context->limits.nodes, G_MAXINT / 2), "nodes",
-                                     "the skeleton", (FrSpan){0}, context->diags);
+                                     "the skeleton", span, context->diags);
     if (status != FR_OK) {
         return status;
     }
     Weld weld = {segments, count, measure(segments, count, tolerance)};
     if (weld.tolerance < 0) {
-        fr_diags_add(context->diags, FR_ERROR, "bad-skeleton", (FrSpan){0},
+        fr_diags_add(context->diags, FR_ERROR, "bad-skeleton", span,
                      "a line of the skeleton has no finite ends or no radius");
         return FR_ERR_DOCUMENT;
     }
@@ -328,7 +354,7 @@ FrStatus fr_skeleton_weld(const FrSegment *segments, size_t count, double tolera
     fr_plant_add_component(*plant, "stem", (FrSpan){0});
     fr_plant_add_component(*plant, "branch", (FrSpan){0});
     grow_all(*plant, &weld);
-    warn(&weld, context->diags);
+    warn(&weld, span, context->diags);
     g_free(sorted);
     g_free(weld.at);
     g_free(weld.joint);

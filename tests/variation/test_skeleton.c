@@ -70,8 +70,9 @@ static void isomorphic(void) {
         FrContext context = fr_context_default();
         context.diags = fr_diags_new();
         FrPlant *welded;
-        g_assert_cmpint(fr_skeleton_weld(segments, count, -1, "welded", &context, &welded), ==,
-                        FR_OK);
+        g_assert_cmpint(
+            fr_skeleton_weld(segments, count, -1, "welded", (FrSpan){0}, &context, &welded), ==,
+            FR_OK);
         assert_sound(welded);
         g_assert_cmpuint(fr_diags_count(context.diags), ==, 0);
         g_assert_cmpuint(welded->nodes.count, ==, 400);
@@ -94,7 +95,8 @@ static void branches_of_a_tree(void) {
     shuffle(segments, count);
     FrContext context = fr_context_default();
     FrPlant *welded;
-    g_assert_cmpint(fr_skeleton_weld(segments, count, -1, "welded", &context, &welded), ==, FR_OK);
+    g_assert_cmpint(fr_skeleton_weld(segments, count, -1, "welded", (FrSpan){0}, &context, &welded),
+                    ==, FR_OK);
     g_assert_cmpuint(welded->axes.count, ==, plant->axes.count);
     uint32_t orders[2][3] = {{0}};
     for (uint32_t a = 0; a < plant->axes.count; a++) {
@@ -132,7 +134,8 @@ static void tables(void) {
     g_assert_cmpuint(count, ==, 5);
     g_assert_cmpfloat(segments[2].radius, ==, 0.01f);
     FrPlant *plant;
-    g_assert_cmpint(fr_skeleton_weld(segments, count, -1, "table", &context, &plant), ==, FR_OK);
+    g_assert_cmpint(fr_skeleton_weld(segments, count, -1, "table", (FrSpan){0}, &context, &plant),
+                    ==, FR_OK);
     assert_sound(plant);
     g_assert_cmpuint(plant->nodes.count, ==, 3); // a loop and a point are left out
     g_assert_cmpuint(plant->axes.count, ==, 2);
@@ -155,18 +158,20 @@ static void hostile(void) {
     context.diags = fr_diags_new();
     FrPlant *plant;
     FrSegment wrong = {{{0, 0, 0}}, {{0, NAN, 1}}, 1};
-    g_assert_cmpint(fr_skeleton_weld(&wrong, 1, -1, "wrong", &context, &plant), ==,
+    g_assert_cmpint(fr_skeleton_weld(&wrong, 1, -1, "wrong", (FrSpan){0}, &context, &plant), ==,
                     FR_ERR_DOCUMENT);
     g_assert_null(plant);
-    g_assert_cmpint(fr_skeleton_weld(NULL, 0, 0, "nothing", &context, &plant), ==, FR_OK);
+    g_assert_cmpint(fr_skeleton_weld(NULL, 0, 0, "nothing", (FrSpan){0}, &context, &plant), ==,
+                    FR_OK);
     g_assert_cmpuint(plant->nodes.count, ==, 0);
     fr_plant_free(plant);
     FrSegment flat[] = {{{{0, 0, 0}}, {{1, 0, 0}}, 1}, {{{1, 0, 0}}, {{1e9f, 0, 0}}, 1}};
-    g_assert_cmpint(fr_skeleton_weld(flat, 2, 0, "flat", &context, &plant), ==, FR_OK);
+    g_assert_cmpint(fr_skeleton_weld(flat, 2, 0, "flat", (FrSpan){0}, &context, &plant), ==, FR_OK);
     assert_sound(plant);
     fr_plant_free(plant);
     context.limits.nodes = 1;
-    g_assert_cmpint(fr_skeleton_weld(flat, 2, 0, "flat", &context, &plant), ==, FR_ERR_LIMIT);
+    g_assert_cmpint(fr_skeleton_weld(flat, 2, 0, "flat", (FrSpan){0}, &context, &plant), ==,
+                    FR_ERR_LIMIT);
     fr_diags_free(context.diags);
 }
 
@@ -189,7 +194,8 @@ static void branches_along(void) {
     g_assert_cmpuint(count, ==, 2 + 6 + 18); // the mast cut at six feet
     FrContext context = fr_context_default();
     FrPlant *again;
-    g_assert_cmpint(fr_skeleton_weld(lines, count, -1, "again", &context, &again), ==, FR_OK);
+    g_assert_cmpint(fr_skeleton_weld(lines, count, -1, "again", (FrSpan){0}, &context, &again), ==,
+                    FR_OK);
     g_assert_cmpuint(again->axes.count, ==, 7);
     uint32_t of_order[2] = {0, 0};
     for (uint32_t a = 0; a < again->axes.count; a++) {
@@ -216,8 +222,10 @@ static void any_order(void) {
     g_assert_cmpuint(count % 7, !=, 0); // or the steps would not reach all
     FrContext context = fr_context_default();
     FrPlant *one, *other;
-    g_assert_cmpint(fr_skeleton_weld(lines, count, -1, "same", &context, &one), ==, FR_OK);
-    g_assert_cmpint(fr_skeleton_weld(turned, count, -1, "same", &context, &other), ==, FR_OK);
+    g_assert_cmpint(fr_skeleton_weld(lines, count, -1, "same", (FrSpan){0}, &context, &one), ==,
+                    FR_OK);
+    g_assert_cmpint(fr_skeleton_weld(turned, count, -1, "same", (FrSpan){0}, &context, &other), ==,
+                    FR_OK);
     g_assert_cmpuint(fr_plant_digest(one), ==, fr_plant_digest(other));
     fr_plant_free(one);
     fr_plant_free(other);
