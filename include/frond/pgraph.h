@@ -119,6 +119,8 @@ FR_API FrStatus fr_pgraph_link_symbol(FrPgraph *graph, uint32_t from, uint32_t t
 /// gives one of that name already.
 FR_API bool fr_pgraph_define(FrPgraph *graph, uint32_t graft, const char *name,
                              const FrNumber *number);
+/// The id of the plant that a graft puts in its place.
+FR_API const char *fr_pgraph_grafted(const FrPgraph *graph, uint32_t graft);
 FR_API void fr_pgraph_add_material(FrPgraph *graph, FrMaterial *material);
 /// Roots, unreachable components, cycles without a depth, unknown materials.
 FR_API FR_MUST_USE FrStatus fr_pgraph_check(const FrPgraph *graph, FrDiags *diags);

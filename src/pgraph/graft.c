@@ -42,6 +42,7 @@ void fr_grafts_drop(FrGrafting *grafting) {
         g_free(scion->materials);
         g_free(scion->shapes);
         g_free(scion->profiles);
+        g_free(scion->finishes);
         g_free(scion->lengths);
     }
     g_array_set_size(grafting->scions, 0);
@@ -109,6 +110,21 @@ static uint32_t mapped(const uint32_t *map, uint32_t index) {
     return index == FR_NONE ? FR_NONE : map[index];
 }
 
+/// The curves along a blade are told by one more than their profile.
+static uint32_t mapped_along(const FrScion *scion, uint32_t index) {
+    return index == 0 ? 0 : scion->profiles[index - 1] + 1;
+}
+
+static void map_blade(const FrScion *scion, FrBlade *blade) {
+    blade->outline = mapped(scion->profiles, blade->outline);
+    blade->along_curve = mapped(scion->profiles, blade->along_curve);
+    blade->across_curve = mapped(scion->profiles, blade->across_curve);
+    blade->across_along = mapped_along(scion, blade->across_along);
+    blade->fold_along = mapped_along(scion, blade->fold_along);
+    blade->twist_along = mapped_along(scion, blade->twist_along);
+    blade->wave_along = mapped_along(scion, blade->wave_along);
+}
+
 static void map_shapes(FrScion *scion, FrPlant *host) {
     const FrPlant *plant = scion->plant;
     scion->materials = g_new(uint32_t, plant->materials->len + 1);
@@ -128,12 +144,43 @@ static void map_shapes(FrScion *scion, FrPlant *host) {
             shape.detail = mapped(scion->profiles, shape.detail);
         } else if (shape.kind == FR_SHAPE_REVOLUTION) {
             shape.outline = mapped(scion->profiles, shape.outline);
+        } else if (shape.kind == FR_SHAPE_FILE) {
+            shape.detail = fr_plant_add_file(host, g_ptr_array_index(plant->files, shape.detail));
         } else if (shape.kind == FR_SHAPE_BLADE) {
-            shape.blade.outline = mapped(scion->profiles, shape.blade.outline);
-            shape.blade.along_curve = mapped(scion->profiles, shape.blade.along_curve);
-            shape.blade.across_curve = mapped(scion->profiles, shape.blade.across_curve);
+            map_blade(scion, &shape.blade);
         }
         scion->shapes[i] = fr_plant_add_shape(host, &shape);
+    }
+}
+
+/// Finishes, and the scopes of deformations, whose rows the plant gets now and values later.
+static void map_rest(FrScion *scion, FrPlant *host) {
+    const FrPlant *plant = scion->plant;
+    scion->finishes = g_new(uint32_t, plant->finishes->len + 1);
+    for (guint i = 0; i < plant->finishes->len; i++) {
+        const FrFinish *finish = &g_array_index(plant->finishes, FrFinish, i);
+        guint known = 0;
+        while (known < host->finishes->len &&
+               memcmp(&g_array_index(host->finishes, FrFinish, known), finish, sizeof *finish)) {
+            known++;
+        }
+        scion->finishes[i] =
+            known < host->finishes->len ? known : fr_plant_add_finish(host, finish);
+    }
+    if (plant->deformers->len == 0) {
+        return;
+    }
+    uint32_t first = host->deformations->len;
+    for (guint i = 0; i < plant->deformations->len; i++) {
+        FrDeformation deformation = g_array_index(plant->deformations, FrDeformation, i);
+        deformation.component = FR_NONE;
+        fr_plant_add_deformation(host, &deformation);
+    }
+    scion->deformers = fr_plant_append_deformers(host, plant->deformers->len);
+    for (guint i = 0; i < plant->deformers->len; i++) {
+        FrDeformer *to = &g_array_index(host->deformers, FrDeformer, scion->deformers + i);
+        *to = g_array_index(plant->deformers, FrDeformer, i);
+        to->deformation += first;
     }
 }
 
@@ -179,6 +226,12 @@ static FrStatus check(const FrExpansion *expansion, uint32_t row, const Sums *su
                                 prototype->id, prototype->span, context->diags);
 }
 
+const char *fr_pgraph_grafted(const FrPgraph *graph, uint32_t graft) {
+    FR_ASSERT(fr_pgraph_kind(graph, graft) == FR_COMPONENT_GRAFT);
+    const FrGraftParams *params = fr_pgraph_prototype(graph, graft)->params;
+    return params->plant;
+}
+
 /// Takes what a batch has grown, in the order of its rows.
 static FrStatus take(FrGrafting *grafting, FrExpansion *expansion, const Batch *batch,
                      uint32_t count, Sums *sums) {
@@ -197,6 +250,7 @@ static FrStatus take(FrGrafting *grafting, FrExpansion *expansion, const Batch *
             sums->nodes += scion->plant->nodes.count;
             sums->organs += scion->plant->organs.count;
             map_shapes(scion, expansion->plant);
+            map_rest(scion, expansion->plant);
             measure_axes(scion);
             status = check(expansion, batch->rows[i], sums, batch->context);
         }
@@ -217,6 +271,8 @@ static FrStatus grow_batch(FrGrafting *grafting, FrExpansion *expansion, const F
                    .statuses = g_new0(FrStatus, count)};
     batch.limits.nodes = context->limits.nodes - sums->nodes;
     batch.limits.organs = context->limits.organs - sums->organs;
+    // All grafts of a level share what a plant may have, so that those within them do too.
+    batch.limits.instances = MAX(context->limits.instances / grafting->count, 1);
     fr_parallel_for(context->pool, count, 1, grow_range, &batch, NULL);
     FrStatus status = take(grafting, expansion, &batch, count, sums);
     g_free(batch.scions);
@@ -260,6 +316,7 @@ FrStatus fr_grafts_grow(FrGrafting *grafting, FrExpansion *expansion, const FrCo
     Sums sums = {expansion->plant->nodes.count, expansion->plant->organs.count};
     if (rows->len > 0) {
         grafting->scion = g_new(uint32_t, level->count);
+        grafting->count = rows->len;
         status = check_grafter(grafting, expansion, g_array_index(rows, uint32_t, 0), context);
     }
     for (uint32_t i = 0; i < rows->len; i++) {

@@ -9,9 +9,10 @@
 typedef struct FrScion {
     FrPlant *plant;
     uint32_t *materials, *shapes; ///< of the plant that receives it, by those of the scion
-    uint32_t *profiles;
-    float *lengths;  ///< m, of the scion's axes
-    uint32_t places; ///< organs without a shape: where children stand
+    uint32_t *profiles, *finishes;
+    uint32_t deformers; ///< first of its scopes in the plant that receives it
+    float *lengths;     ///< m, of the scion's axes
+    uint32_t places;    ///< organs without a shape: where children stand
 } FrScion;
 
 /// What is common to the grafts of a build.
@@ -19,6 +20,7 @@ typedef struct FrGrafting {
     const FrGraft *graft;
     GArray *scions;   ///< FrScion, of the rows of the level at hand that are grafts
     uint32_t *scion;  ///< of each row of the level: index into scions, FR_NONE
+    uint32_t count;   ///< of the grafts of the level
     uint64_t largest; ///< nodes and organs of the largest so far
     GHashTable *told; ///< places of warnings that were passed on
 } FrGrafting;

@@ -25,8 +25,15 @@ static uint32_t material_of(const FrExpansion *expansion, uint32_t row, const Fr
 static bool goes_on(const FrLevel *level, uint32_t row, const FrScion *scion, const FrPose *pose) {
     const FrAxes *axes = &scion->plant->axes;
     return level->joint[row] == FR_JOINT_TIP && !pose->is_turned_or_moved &&
-           axes->bearer[0] == FR_NONE && glms_vec3_norm(axes->offset[0]) == 0 &&
+           axes->first[0] != FR_NONE && axes->bearer[0] == FR_NONE &&
+           glms_vec3_norm(axes->offset[0]) == 0 &&
            fabsf(scion->plant->nodes.rotation[axes->first[0]].w) > 0.9999F;
+}
+
+/// The scope of a part: that of the scion, or the one around all of it.
+static uint32_t scope_of(const FrLevel *level, uint32_t row, const FrScion *scion,
+                         uint32_t deformer) {
+    return deformer == FR_NONE ? level->deformer[row] : scion->deformers + deformer;
 }
 
 static void copy_axes(const FrExpansion *expansion, uint32_t row, const FrScion *scion,
@@ -51,7 +58,8 @@ static void copy_axes(const FrExpansion *expansion, uint32_t row, const FrScion 
         to->profile[axis] =
             from->profile[i] == FR_NONE ? FR_NONE : scion->profiles[from->profile[i]];
         to->material[axis] = material_of(expansion, row, scion, from->material[i]);
-        to->deformer[axis] = level->deformer[row];
+        to->finish[axis] = from->finish[i] == FR_NONE ? FR_NONE : scion->finishes[from->finish[i]];
+        to->deformer[axis] = scope_of(level, row, scion, from->deformer[i]);
         to->component[axis] = fr_instance_stage(expansion, row)->component;
         to->path[axis] = fr_key_child(level->key[row], from->path[i]);
     }
@@ -107,10 +115,29 @@ static void copy_organs(const FrExpansion *expansion, uint32_t row, const FrScio
         FrPose placed = organ_pose(expansion, row, scion, pose, i);
         fr_write_organ(expansion, row, organ, placed, scion->shapes[from->shape[i]]);
         to->material[organ] = material_of(expansion, row, scion, from->material[i]);
+        to->deformer[organ] = scope_of(&expansion->level, row, scion, from->deformer[i]);
         to->birth[organ] = from->birth[i];
         to->flags[organ] = from->flags[i];
         to->path[organ] = fr_key_child(expansion->level.key[row], from->path[i]);
         organ++;
+    }
+}
+
+/// Scopes of the scion stand where it stands.
+static void place_scopes(const FrExpansion *expansion, uint32_t row, const FrScion *scion,
+                         const FrPose *pose) {
+    const FrLevel *level = &expansion->level;
+    for (guint i = 0; i < scion->plant->deformers->len; i++) {
+        FrDeformer *scope =
+            &g_array_index(expansion->plant->deformers, FrDeformer, scion->deformers + i);
+        bool is_root = scope->node == FR_NONE;
+        scope->outer = scope_of(level, row, scion, scope->outer);
+        scope->offset = is_root ? place_of(pose, scope->offset)
+                                : glms_vec3_scale(scope->offset, (float)pose->scale);
+        scope->rotation =
+            is_root ? fr_frame_step(pose->rotation, scope->rotation) : scope->rotation;
+        scope->node = is_root ? pose->bearer : level->node_count[row] + scope->node;
+        scope->scale *= (float)pose->scale;
     }
 }
 
@@ -161,7 +188,7 @@ static uint32_t make_places(const FrExpansion *expansion, uint32_t row, const Fr
 /// The pose at the end of the main axis, where what follows without a symbol goes on.
 static FrPose tip_of(const FrExpansion *expansion, uint32_t row, const FrScion *scion,
                      FrPose pose) {
-    if (scion->plant->axes.count > 0) {
+    if (scion->plant->axes.count > 0 && scion->plant->axes.last[0] != FR_NONE) {
         pose.bearer = expansion->plant->axes.last[expansion->level.axis_count[row]];
         pose.offset = (vec3s){{0, 0, 0}};
         pose.rotation = (versors){{0, 0, 0, 1}};
@@ -181,7 +208,7 @@ static void make_children(const FrExpansion *expansion, uint32_t row, const FrSc
         }
     }
     FrChild child = fr_single_child(expansion, row, tip_of(expansion, row, scion, *pose));
-    if (scion->plant->axes.count > 0) {
+    if (scion->plant->axes.count > 0 && scion->plant->axes.last[0] != FR_NONE) {
         uint32_t last = scion->plant->axes.last[0];
         child.joint = FR_JOINT_TIP;
         child.x = 1;
@@ -197,5 +224,6 @@ void fr_make_graft(const FrExpansion *expansion, uint32_t row, FrEvaluator *eval
     copy_axes(expansion, row, scion, &pose);
     copy_nodes(expansion, row, scion, &pose);
     copy_organs(expansion, row, scion, &pose);
+    place_scopes(expansion, row, scion, &pose);
     make_children(expansion, row, scion, &pose);
 }

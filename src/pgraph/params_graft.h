@@ -3,8 +3,9 @@
 #pragma once
 
 #define FR_GRAFT_PARAMS(X)                                                                         \
-    X(TEXT, plant, "", 0, 0, "", "", "id of the plant that stands here, an L-system")              \
-    X(NUMBER, steps, "-1", -1, 1000000, "", "", "steps of its growth; -1: as many as it has itself")
+    X(TEXT, plant, "", 0, 0, "", "", "id of the plant of this document that stands here")          \
+    X(NUMBER, steps, "-1", -1, 1000000, "", "",                                                    \
+      "steps of the growth of an L-system; -1: as many as it has itself")
 
 typedef struct FrGraftParams {
     FR_BASIC_PARAMS(FR_PARAM_FIELD)

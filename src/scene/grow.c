@@ -1,7 +1,7 @@
 /// One plant built by the engine of its definition.
 #include "scene/grow.h"
 
-#include "scene/find.h"
+#include "scene/graft.h"
 
 #include <math.h>
 
@@ -30,31 +30,6 @@ static FrStatus grow_lsystem(const FrPlantDef *definition, int64_t seed, const F
     return status;
 }
 
-/// The plant of a graft: what the p-graph engine asks for and another engine makes.
-static FrStatus grow_graft(void *data, const FrGraftWish *wish, const FrContext *context,
-                           FrPlant **plant) {
-    const FrDocument *document = data;
-    const FrPlantDef *definition = fr_scene_find_plant(document, wish->plant);
-    FR_ASSERT(definition != NULL && definition->kind == FR_PLANT_LSYSTEM);
-    const FrLmodel *model = definition->lsystem;
-    double *values = g_new(double, fr_lmodel_value_count(model) + 1);
-    fr_lmodel_evaluate(model, wish->key, values);
-    for (size_t i = 0; i < wish->count; i++) {
-        uint32_t value = fr_lmodel_find_value(model, wish->names[i]);
-        FR_ASSERT(value != FR_NONE);
-        values[value] = wish->values[i];
-    }
-    FrLsettings settings = fr_lmodel_settings(model);
-    settings.seed = (int64_t)(wish->key & INT64_MAX);
-    settings.steps = wish->steps < 0 ? settings.steps : wish->steps;
-    settings.values = values;
-    settings.sites = wish->symbols;
-    settings.inherits = true;
-    FrStatus status = fr_lmodel_grow(model, &settings, context, plant, NULL, NULL);
-    g_free(values);
-    return status;
-}
-
 static FrStatus grow_pgraph(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
                             double time, const FrLightField *light, const FrContext *context,
                             FrScenePlant *made, FrPgraphCounts *counts) {
@@ -63,8 +38,13 @@ static FrStatus grow_pgraph(const FrDocument *document, const FrPlantDef *defini
                              ? NULL
                              : fr_document_reseed(document, definition, own_seed, time);
     const FrPgraph *graph = reseeded == NULL ? definition->pgraph : reseeded;
-    FrGraft graft = {(FrDocument *)document, grow_graft, light}; // which only reads it
-    FrStatus status = fr_pgraph_build_grafted(graph, &graft, context, &made->plant, counts);
+    FrGrafter grafter;
+    FrStatus status = fr_grafter_init(&grafter, document, graph, time, context);
+    if (status == FR_OK) {
+        FrGraft graft = fr_grafter_graft(&grafter, light);
+        status = fr_pgraph_build_grafted(graph, &graft, context, &made->plant, counts);
+    }
+    fr_grafter_clear(&grafter);
     if (status == FR_OK) {
         guint components = made->plant->components->len;
         made->instances = counts->instances;

@@ -59,7 +59,20 @@ static void wrong_numbers(void) {
 
 static void wrong_grafts(void) {
     error_at(GRAFT(" plant='twgi'", "", ""), "unknown-plant", 2, 58);
-    error_at(GRAFT(" plant='a'", "", ""), "wrong-graft", 2, 58);
+    error_at(GRAFT(" plant='a'", "", ""), "graft-cycle", 2, 2);
+    error_at(
+        GRAFT(" plant='b'", "", "</pgraph></plant><plant id='b'><pgraph><graft id='k' plant='a'/>"),
+        "graft-cycle", 2, 2);
+    error_at(
+        GRAFT(" plant='b' steps='3'", "", "</pgraph></plant><plant id='b'><pgraph><horn id='k'/>"),
+        "wrong-graft", 2, 68);
+    error_at(GRAFT(" plant='b'", "<define id='s' value='1'/>",
+                   "</pgraph></plant><plant id='b'><pgraph><horn id='k'/>"),
+             "unused-value", 2, 73);
+    error_at(GRAFT(" plant='b'", "",
+                   "<link from='g' to='h' symbol='L'/></pgraph></plant><plant id='b'><pgraph>"
+                   "<horn id='k'/>"),
+             "wrong-symbol", 3, 31);
     error_at(GRAFT("", "", ""), "missing-attribute", 2, 38);
     error_at(GRAFT(" plant='twig'", "<define id='s' value='1'/>", ""), "unused-value", 2, 76);
     error_at(GRAFT(" plant='twig'", "", "<link from='h' to='g' symbol='L'/>"), "wrong-symbol", 3,
