@@ -24,6 +24,14 @@ typedef struct FrNurbsSurface {
     const double (*points)[4]; ///< point (i, j) is points[j * count_u + i]
 } FrNurbsSurface;
 
+/// How fine a grid of points on a surface shall be.
+typedef struct FrNurbsFineness {
+    double tolerance; ///< farthest that a plane cell may be from the surface, > 0
+    double turn;      ///< radians, > 0: wanted turn from step to step; what is small may turn more
+} FrNurbsFineness;
+
+enum { FR_NURBS_STEPS_MOST = 64 };
+
 /// The published ways to write the unit circle in the plane of x and y, all exact.
 typedef enum FrNurbsCircle {
     FR_CIRCLE_TRIANGLE, ///< quadratic, seven points: a triangle's corners and the middles of sides
@@ -46,6 +54,22 @@ FR_API void fr_nurbs_curve_at(const FrNurbsCurve *curve, double u, double point[
 /// Point and partial derivatives; each may be NULL. u and v are clamped to the surface.
 FR_API void fr_nurbs_surface_at(const FrNurbsSurface *surface, double u, double v, double point[3],
                                 double along_u[3], double along_v[3]);
+/// Pieces between knots.
+FR_API uint32_t fr_nurbs_pieces(const double *knots, uint32_t degree, uint32_t count);
+/// Into how many even steps each piece between knots is cut, both ways, each at most
+/// FR_NURBS_STEPS_MOST.
+FR_API void fr_nurbs_steps(const FrNurbsSurface *surface, const FrNurbsFineness *fineness,
+                           uint8_t *steps_u, uint8_t *steps_v);
+/// The parameters of these steps from end to end; answers how many: one more than steps.
+FR_API uint32_t fr_nurbs_parameters(const double *knots, uint32_t degree, uint32_t count,
+                                    const uint8_t *steps, double *at);
+/// Points of a surface at rising parameters, `u` fastest, and unit normals along du × dv; where a
+/// side is shrunk to a point, those beside it. `coordinates` (NULL: none) belong to the control
+/// points and are blended as these are to `blended`.
+FR_API void fr_nurbs_grid(const FrNurbsSurface *surface, const double *u, uint32_t count_u,
+                          const double *v, uint32_t count_v, double (*points)[3],
+                          double (*normals)[3], const double (*coordinates)[2],
+                          double (*blended)[2]);
 /// First and last value of the parameter.
 FR_API void fr_nurbs_range(const double *knots, uint32_t degree, uint32_t count, double range[2]);
 /// True if counts, knots, points and weights (> 0) are as they must be; for what was imported.

@@ -93,6 +93,7 @@ typedef struct FrNurbsForm {
     uint32_t degree_u, degree_v, count_u, count_v;
     double *knots_u, *knots_v;
     double (*points)[4];
+    double (*texture)[2]; ///< by control point; NULL
 } FrNurbsForm;
 
 /// Appends a form with room for its arrays; answers it.
@@ -106,3 +107,14 @@ uint64_t fr_nurbs_leaf_bytes_most(void);
 /// Appends petiole and halves of a blade.
 void fr_nurbs_leaf(GArray *forms, const FrPlant *plant, const FrBlade *blade,
                    const FrNurbsParams *params);
+
+// ---- nurbs_weights.c, nurbs_factors.c: what changes the plant before, and organs after ---------
+
+/// Radii by the weights of the settings.
+void fr_nurbs_weigh(FrPlant *plant, const FrNurbsParams *params);
+/// Wind, light or gravity act.
+bool fr_nurbs_is_blown(const FrNurbsParams *params);
+/// Bends the control points of an organ that has been placed; `pieces` are its surfaces and
+/// `points` what they borrow.
+void fr_nurbs_blow_organ(const FrNurbsParams *params, const FrPlant *plant, uint32_t organ,
+                         const FrNurbsPiece *pieces, uint32_t count, double (*points)[4]);

@@ -14,9 +14,29 @@
 enum { LEAST_ROWS = 9, MOST_ROWS = 41, ACROSS_MOST = 4, PETIOLE_POINTS = 5 };
 
 uint64_t fr_nurbs_leaf_bytes_most(void) {
-    uint64_t patch = MOST_ROWS * ACROSS_MOST * 4 + MOST_ROWS + ACROSS_MOST + 8;
-    uint64_t petiole = 9 * PETIOLE_POINTS * 4 + 40;
-    return (2 * patch + petiole) * sizeof(double) + 3 * sizeof(FrNurbsForm);
+    uint64_t patch = (uint64_t)MOST_ROWS * ACROSS_MOST * 6 + MOST_ROWS + ACROSS_MOST + 8;
+    uint64_t petiole = 9 * (PETIOLE_POINTS + 4) * 4 + 80;
+    return (2 * patch + petiole) * sizeof(double) + 5 * sizeof(FrNurbsForm);
+}
+
+/// Closes the petiole before it: as a rim and its middle.
+static void lay_cap(GArray *forms, const FrNurbsStation *end, bool is_tip) {
+    const FrNurbsForm *last = &g_array_index(forms, FrNurbsForm, forms->len - 1);
+    FrNurbsForm tube = is_tip ? g_array_index(forms, FrNurbsForm, forms->len - 2) : *last;
+    uint32_t width = tube.count_u;
+    FrNurbsForm *cap = fr_nurbs_form_add(forms, is_tip ? FR_NURBS_CAP : FR_NURBS_FOOT,
+                                         tube.degree_u, width, 1, 2);
+    static const double ruled[] = {0, 0, 1, 1};
+    memcpy(cap->knots_u, tube.knots_u, sizeof(double) * (width + tube.degree_u + 1));
+    memcpy(cap->knots_v, ruled, sizeof ruled);
+    const double(*rim)[4] =
+        (const double(*)[4])tube.points + (is_tip ? (size_t)(tube.count_v - 1) * width : 0);
+    for (uint32_t i = 0; i < width; i++) {
+        double *middle = cap->points[is_tip ? width + i : i];
+        memcpy(cap->points[is_tip ? i : width + i], rim[i], sizeof *rim);
+        memcpy(middle, end->at, sizeof end->at);
+        middle[3] = rim[i][3];
+    }
 }
 
 static void lay_petiole(GArray *forms, const FrBladeForm *form, const FrNurbsParams *params) {
@@ -42,6 +62,10 @@ static void lay_petiole(GArray *forms, const FrBladeForm *form, const FrNurbsPar
             fr_nurbs_form_add(forms, FR_NURBS_TUBE, circle.degree, circle.count, 3, rows);
         memcpy(tube->knots_u, circle.knots, sizeof(double) * (circle.count + circle.degree + 1));
         fr_nurbs_sweep(&path, &section, NULL, &plain, tube->points, tube->knots_v);
+        if (params->thickness > 0.0) {
+            lay_cap(forms, &path.stations[0], false);
+            lay_cap(forms, &path.stations[path.count - 1], true);
+        }
         fr_nurbs_curve_clear(&circle);
     }
     fr_nurbs_path_clear(&path);
@@ -86,14 +110,26 @@ static void lay_half(GArray *forms, const FrBladeForm *form, const FrOutlineRow 
             point[3] = 1.0;
         }
     }
+    half->texture = g_malloc_n((size_t)across * count, sizeof *half->texture);
+    for (uint32_t j = 0; j < across; j++) {
+        double out = side > 0.0 ? 1.0 - parts[j] : parts[j];
+        for (uint32_t i = 0; i < count; i++) {
+            double width = side > 0.0 ? rows[i].right : rows[i].left;
+            half->texture[j * count + i][0] = fmin(fmax(0.5 + side * out * width, 0.0), 1.0);
+            half->texture[j * count + i][1] = 1.0 - rows[i].along;
+        }
+    }
     fr_nurbs_average_knots(at, count, 3, half->knots_u);
     fr_nurbs_average_knots(parts, across, across - 1, half->knots_v);
     for (uint32_t j = 0; j < across; j++) {
         fr_nurbs_interpolate(half->knots_u, 3, at, count, half->points[j * count], 3, 4);
+        fr_nurbs_interpolate(half->knots_u, 3, at, count, half->texture[j * count], 2, 2);
     }
     for (uint32_t i = 0; i < count && across > 2; i++) {
         fr_nurbs_interpolate(half->knots_v, across - 1, parts, across, half->points[i], 3,
                              4 * count);
+        fr_nurbs_interpolate(half->knots_v, across - 1, parts, across, half->texture[i], 2,
+                             2 * count);
     }
 }
 

@@ -17,6 +17,7 @@ static void form_clear(gpointer data) {
     g_free(form->knots_u);
     g_free(form->knots_v);
     g_free(form->points);
+    g_free(form->texture);
 }
 
 FrNurbsForm *fr_nurbs_form_add(GArray *forms, uint32_t kind, uint32_t degree_u, uint32_t count_u,

@@ -1,9 +1,12 @@
 """OpenCASCADE reads our IGES and STEP: every face is there, valid, and where we evaluate it."""
 
+import functools
+import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
 import frond_tap as tap
 
@@ -12,13 +15,31 @@ SMALL = [example for example in tap.EXAMPLES if example.stem in ("figure2", "sun
 SAMPLES = [(0.0, 0.0), (0.13, 0.31), (0.5, 0.5), (0.77, 0.93), (1.0, 1.0)]
 
 
-def draw(folder, script):
-    if DRAW is None:
-        raise tap.Skip("occt-draw is not installed")
+def run_draw(folder, script):
     path = folder / "read.tcl"
     path.write_text("pload ALL\n" + script)
-    done = subprocess.run([DRAW, "-b", "-f", str(path)], capture_output=True, text=True,
+    return subprocess.run([DRAW, "-b", "-f", str(path)], capture_output=True, text=True,
                           check=False, timeout=500)
+
+
+@functools.cache
+def reason_to_skip():
+    """The command alone is not enough: its modules are found through resources of their own."""
+    if DRAW is None:
+        return "occt-draw is not installed"
+    with tempfile.TemporaryDirectory() as folder:
+        done = run_draw(pathlib.Path(folder), "box b 1 1 1\nputs [nbshapes b]\n"
+                        "puts \"READERS [llength [info commands igesbrep]]"
+                        "[llength [info commands stepread]]\"\n")
+    works = re.search(r"FACE\s*:\s*6\b", done.stdout) and "READERS 11" in done.stdout
+    return None if works else ("OpenCASCADE's draw finds no modules; their resources are in the "
+                               "package libocct-draw-dev")
+
+
+def draw(folder, script):
+    if reason_to_skip() is not None:
+        raise tap.Skip(reason_to_skip())
+    done = run_draw(folder, script)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     return done.stdout + done.stderr
 

@@ -1,0 +1,59 @@
+// One call of fr_nurbs_plant(), and its parts.
+#pragma once
+
+#include "skin/mesh.h"
+#include "skin/nurbs.h"
+#include "skin/organs.h"
+
+/// Where what a tube or organ makes is written.
+typedef struct FrNurbsPlace {
+    uint64_t piece, point, knot;
+    uint32_t section; ///< tubes
+    uint32_t rows;    ///< of tubes, surfaces of organs; 0: nothing
+} FrNurbsPlace;
+
+/// A shape and where its knots are kept, once for all organs that have it.
+typedef struct FrNurbsShapeForms {
+    GArray *forms; ///< FrNurbsForm; NULL if no organ has it
+    uint64_t knot, points, textures;
+    uint64_t texture;      ///< where its coordinates are kept
+    uint64_t piece, point; ///< where its own surfaces are kept, if copies need them
+    bool is_copied;
+} FrNurbsShapeForms;
+
+/// One call of fr_nurbs_plant().
+typedef struct FrNurbsJob {
+    const FrNurbsParams *params;
+    const FrContext *context;
+    bool shares; ///< equal organs are copies
+    FrPlan plan;
+    FrScopes *scopes;    ///< of deformations; NULL
+    FrPlant *moved;      ///< by the deformations of the skeleton; NULL
+    FrDeformNote *notes; ///< by worker and deformation
+    FrNurbsSections sections;
+    uint64_t *section_knot;    ///< by section
+    FrNurbsPlace *tubes;       ///< by tube
+    FrNurbsPlace *organs;      ///< by organ
+    FrNurbsShapeForms *shapes; ///< by shape
+    FrNurbsPath *paths;        ///< by worker
+    FrNurbsSkin *skin;
+    uint32_t organ_count;
+    uint64_t pieces, points, knots, textures, copies, own_pieces;
+} FrNurbsJob;
+
+/// Knots of what is ruled: the first four of every skin.
+enum { FR_RULED_KNOTS = 4 };
+
+/// Takes control points through the free-form deformations around them.
+void fr_nurbs_deform(const FrNurbsJob *job, uint32_t scope, double (*points)[4], uint64_t count,
+                     int worker);
+
+// nurbs_tubes.c, nurbs_organs.c: count what there is, give it its places, write it.
+
+void fr_nurbs_place_tubes(FrNurbsJob *job);
+void fr_nurbs_write_tubes(FrNurbsJob *job);
+/// FR_ERR_LIMIT if the shapes alone would take too many bytes; then none has been made.
+FrStatus fr_nurbs_make_shapes(FrNurbsJob *job);
+void fr_nurbs_place_organs(FrNurbsJob *job);
+/// Writes knots and coordinates of shapes, then what organs make of them.
+void fr_nurbs_write_organs(FrNurbsJob *job);
