@@ -9,6 +9,7 @@
 #include "frond/context.h"
 #include "frond/lsystem_model.h"
 #include "frond/material.h"
+#include "frond/nurbs_skin.h"
 #include "frond/pgraph.h"
 #include "frond/placing.h"
 #include "frond/surroundings.h"
@@ -72,6 +73,8 @@ typedef struct FrPlantDef {
     FrLmodel *lsystem;       ///< for FR_PLANT_LSYSTEM, else NULL
     FrSkeleton *skeleton;    ///< for FR_PLANT_SKELETON, else NULL
     FrVary *vary; ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
+    bool has_nurbs;      ///< it has a `<nurbs>`: it is shown as rational surfaces …
+    FrNurbsParams nurbs; ///< … with these settings, else with the usual ones
     FrSpan span;
 } FrPlantDef;
 

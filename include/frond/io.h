@@ -32,8 +32,8 @@ FR_API FrIoOptions fr_io_options_default(void);
 FR_API bool fr_io_can_write(const char *path);
 /// The extensions, e.g. ".glb", for messages; NULL-terminated.
 FR_API const char *const *fr_io_extensions(void);
-/// Writes the scene in the format of the extension of `path`: .glb .gltf .usda .obj .ply .stl, the
-/// topology as .mtg and .opf, and as rational surfaces .igs .iges .stp .step and .nurbs.obj
+/// Writes the scene in the format of the extension of `path`: .glb .gltf .usda .obj .ply .stl .3mf,
+/// the topology as .mtg and .opf, and as rational surfaces .igs .iges .stp .step and .nurbs.obj
 /// (free-form statements).
 FR_API FR_MUST_USE FrStatus fr_io_write(const FrScene *scene, const char *path,
                                         const FrIoOptions *options, const FrContext *context,

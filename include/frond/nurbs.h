@@ -57,7 +57,7 @@ FR_API void fr_nurbs_surface_at(const FrNurbsSurface *surface, double u, double 
 /// Pieces between knots.
 FR_API uint32_t fr_nurbs_pieces(const double *knots, uint32_t degree, uint32_t count);
 /// Into how many even steps each piece between knots is cut, both ways, each at most
-/// FR_NURBS_STEPS_MOST.
+/// FR_NURBS_STEPS_MOST; 0 for a piece that is part of the step before it.
 FR_API void fr_nurbs_steps(const FrNurbsSurface *surface, const FrNurbsFineness *fineness,
                            uint8_t *steps_u, uint8_t *steps_v);
 /// The parameters of these steps from end to end; answers how many: one more than steps.

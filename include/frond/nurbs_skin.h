@@ -62,8 +62,9 @@ typedef enum FrNurbsWeights {
 
 /// Triangles of rational surfaces.
 #define FR_NURBS_MESH_PARAMS(X)                                                                    \
-    X(REAL, tolerance, "0.0005", 0.0000001, 100, "m", "",                                          \
-      "farthest that triangles are from the surface; twice that for each level of detail")         \
+    X(REAL, tolerance, "0", 0, 100, "m", "",                                                       \
+      "farthest that triangles are from the surface, 0: 1/2000 of the plant's size; twice that "   \
+      "for each level of detail")                                                                  \
     X(REAL, turn, "30", 1, 90, "deg", "", "wanted turn from one row of triangles to the next")     \
     X(REAL, thickness, "0", 0, 10, "m", "", "of the triangles of blades; 0: open sheets")          \
     X(REAL, voxel, "0", 0, 1000, "m", "",                                                          \

@@ -14,6 +14,8 @@ typedef struct FrScenePlant {
                             ///< L-system internodes and organs by the production they come from
     uint64_t modules;       ///< of the string, if an L-system made it
     FrLdrawn drawn;         ///< by its turtle
+    bool has_nurbs;         ///< it is shown as rational surfaces …
+    FrNurbsParams nurbs;    ///< … with these settings, at the time of its clock
 } FrScenePlant;
 
 typedef struct FrStand {
@@ -78,6 +80,9 @@ FR_API FR_MUST_USE FrStatus fr_scene_count(const FrDocument *document, const FrC
                                            uint64_t *count);
 FR_API void fr_scene_free(FrScene *scene);
 FR_API FrDigest fr_scene_digest(const FrScene *scene);
+/// The triangles of a plant as it is shown: its skin, or those of its rational surfaces.
+FR_API FR_MUST_USE FrStatus fr_scene_mesh(const FrScenePlant *plant, const FrSkinParams *skin,
+                                          FrUpAxis up, const FrContext *context, FrMesh **mesh);
 /// The smallest box around everything, organs' shapes included roughly; min > max if nothing has
 /// an extent.
 FR_API void fr_scene_bounds(const FrScene *scene, double min[3], double max[3]);

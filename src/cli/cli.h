@@ -41,7 +41,7 @@ typedef struct CliOptions {
     int64_t samples, width, height; ///< 0: the default
     FrLeaves leaves;
     FrLimits limits;
-    FrNurbsParams nurbs;
+    GPtrArray *nurbs; ///< char *, NAME=VALUE of --nurbs
     char *camera, *stats, *preset; ///< NULL: not given
     char *plant;                   ///< to vary, NULL: the first that is a variation
     char *view;                    ///< of an L-system, NULL: the .v beside it if there is one
@@ -80,6 +80,13 @@ void cli_options_clear(CliOptions *options);
 bool cli_options_parse(CliOptions *options, const CliVerb *verb, int count, char **arguments);
 /// Prints the options that belong to a verb.
 void cli_options_print(CliVerbId verb, FILE *out);
+
+// ---- nurbs.c ----------------------------------------------------------------------------------
+
+/// Sets one NAME=VALUE; false after a message.
+bool cli_nurbs_set(FrNurbsParams *params, const char *text);
+/// Shows all plants as rational surfaces if --nurbs was given, as it says; `plain` is for writers.
+void cli_nurbs_apply(const CliOptions *options, FrScene *scene, FrNurbsParams *plain);
 
 // ---- message.c --------------------------------------------------------------------------------
 

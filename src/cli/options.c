@@ -111,24 +111,11 @@ static bool take_limit(CliOptions *options, const char *value) {
 }
 
 static bool take_nurbs(CliOptions *options, const char *value) {
-    const char *equals = strchr(value, '=');
-    char *name = g_strndup(value, equals != NULL ? (gsize)(equals - value) : strlen(value));
-    const FrParam *param = fr_params_find(fr_nurbs_table(), name);
-    bool is_right = false;
-    if (equals == NULL || param == NULL) {
-        cli_message("--nurbs takes circle, join, frames, profile-degree, caps or foliage=VALUE, "
-                    "not '%s'",
-                    value);
-    } else {
-        FrDiags *diags = fr_diags_new();
-        is_right = fr_params_set(fr_nurbs_table(), &options->nurbs, param, equals + 1, (FrSpan){0},
-                                 NULL, diags) == FR_OK;
-        if (!is_right && fr_diags_count(diags) > 0) {
-            cli_message("%s", fr_diags_get(diags, 0)->text);
-        }
-        fr_diags_free(diags);
+    FrNurbsParams params = fr_nurbs_default();
+    bool is_right = cli_nurbs_set(&params, value);
+    if (is_right) {
+        g_ptr_array_add(options->nurbs, g_strdup(value));
     }
-    g_free(name);
     return is_right;
 }
 
@@ -268,7 +255,8 @@ static const OptionRow rows[] = {
     {"lod", 0, "N", MAKING, "level of detail: 0 finest, to 8", take_lod},
     {"leaves", 0, "HOW", CLI_BUILD | CLI_VARY, "in glTF: merged (default), nodes, gpu",
      take_leaves},
-    {"nurbs", 0, "NAME=VALUE", CLI_BUILD, "in .igs and .stp: like circle=nine, join=smooth",
+    {"nurbs", 0, "NAME=VALUE", CLI_BUILD | CLI_RENDER,
+     "plants as rational surfaces, like circle=nine; the names of <nurbs>",
      take_nurbs},
     {"time", 0, "YEARS", CLI_BUILD | CLI_RENDER | CLI_INFO | CLI_VARY,
      "what the clocks of all plants show", take_time},
@@ -321,13 +309,14 @@ CliOptions cli_options_new(void) {
                         .light_axis = -1,
                         .steps = -1,
                         .limits = limits_here(),
-                        .nurbs = fr_nurbs_default()};
+                        .nurbs = g_ptr_array_new_with_free_func(g_free)};
 }
 
 void cli_options_clear(CliOptions *options) {
     g_ptr_array_unref(options->files);
     g_ptr_array_unref(options->outputs);
     g_ptr_array_unref(options->sets);
+    g_ptr_array_unref(options->nurbs);
     g_free(options->camera);
     g_free(options->stats);
     g_free(options->preset);

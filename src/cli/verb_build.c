@@ -33,11 +33,11 @@ static void say_written(const CliSession *session, const char *path, const FrIoS
 }
 
 /// Writes every output; `total` receives the counts of the first and the seconds of all.
-static FrStatus write_outputs(CliSession *session, const FrScene *scene, FrIoStats *total) {
+static FrStatus write_outputs(CliSession *session, FrScene *scene, FrIoStats *total) {
     FrIoOptions io = fr_io_options_default();
     io.leaves = session->options->leaves;
     io.skin.lod = session->options->lod;
-    io.nurbs = session->options->nurbs;
+    cli_nurbs_apply(session->options, scene, &io.nurbs);
     const GPtrArray *outputs = session->options->outputs;
     for (guint i = 0; i < outputs->len; i++) {
         const char *path = g_ptr_array_index(outputs, i);

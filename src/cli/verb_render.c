@@ -47,8 +47,10 @@ static bool check_camera(const CliOptions *options, const FrScene *scene) {
     return is_known;
 }
 
-static FrStatus render_and_save(CliSession *session, const FrScene *scene, const char *path) {
+static FrStatus render_and_save(CliSession *session, FrScene *scene, const char *path) {
     const CliOptions *options = session->options;
+    FrNurbsParams plain = fr_nurbs_default();
+    cli_nurbs_apply(options, scene, &plain);
     FrRenderParams params;
     fr_params_init(fr_render_table(), &params);
     params.width = options->width > 0 ? options->width : params.width;

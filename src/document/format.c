@@ -89,7 +89,7 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                           .table = &plant_table,
                           .has_id = true,
                           .children = SET(SLIDER) | SET(PGRAPH) | SET(EDITS) | SET(LSYSTEM) |
-                                      SET(SKELETON) | SET(VARY)},
+                                      SET(SKELETON) | SET(NURBS) | SET(VARY)},
     [FR_ELEMENT_SLIDER] = {.name = "slider", .table = &slider_table, .has_id = true},
     [FR_ELEMENT_PGRAPH] = {.name = "pgraph",
                            .meaning = "linked components that are expanded to a plant "
@@ -111,6 +111,7 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                           .children = SET(EDIT)},
     [FR_ELEMENT_EDIT] = {.name = "edit", .required = "at"},
     [FR_ELEMENT_SKELETON] = {.name = "skeleton", .is_once = true, .has_text = true},
+    [FR_ELEMENT_NURBS] = {.name = "nurbs", .is_once = true},
     [FR_ELEMENT_VARY] = {.name = "vary",
                          .is_once = true,
                          .required = "base",
@@ -151,6 +152,8 @@ FrElement fr_element(FrElementId id) {
         element.table = fr_edit_table();
     } else if (id == FR_ELEMENT_SKELETON) {
         element.table = fr_skeleton_table();
+    } else if (id == FR_ELEMENT_NURBS) {
+        element.table = fr_nurbs_table();
     } else if (id == FR_ELEMENT_VARY) {
         element.table = fr_vary_table();
     } else if (id == FR_ELEMENT_STROKE) {

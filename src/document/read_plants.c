@@ -77,6 +77,16 @@ static void read_attributes(FrReader *reader, uint32_t node, FrPlantDef *plant) 
     fr_params_clear(table, &params);
 }
 
+static void read_nurbs(FrReader *reader, uint32_t node, FrPlantDef *plant) {
+    plant->nurbs = fr_nurbs_default();
+    uint32_t nurbs = fr_read_first(reader, node, FR_ELEMENT_NURBS);
+    if (nurbs != FR_NONE) {
+        plant->has_nurbs = true;
+        fr_read_check_children(reader, nurbs, FR_ELEMENT_NURBS);
+        fr_read_attributes(reader, nurbs, FR_ELEMENT_NURBS, &plant->nurbs);
+    }
+}
+
 static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
     FrPlantDef *plant = g_new0(FrPlantDef, 1);
     *plant = (FrPlantDef){.id = id,
@@ -89,6 +99,7 @@ static FrPlantDef *read_plant(FrReader *reader, uint32_t node, char *id) {
     plant->pgraph = fr_pgraph_new(id, plant->seed);
     set_state(plant->pgraph, plant, plant->time);
     plant->has_seed = fr_xml_attribute(reader->tree, node, "seed") != NULL;
+    read_nurbs(reader, node, plant);
     read_definition(reader, node, plant);
     reader->scope = reader->document->scope;
     fr_scope_free(scope);

@@ -22,6 +22,8 @@ FrStatus fr_ply_write(const FrScene *scene, const char *path, const FrIoOptions 
                       const FrContext *context, FrIoStats *stats);
 FrStatus fr_stl_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                       const FrContext *context, FrIoStats *stats);
+FrStatus fr_three_mf_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                           const FrContext *context, FrIoStats *stats);
 FrStatus fr_step_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                        const FrContext *context, FrIoStats *stats);
 FrStatus fr_usd_write(const FrScene *scene, const char *path, const FrIoOptions *options,

@@ -242,7 +242,9 @@ static FrStatus add_plant(FrGltf *gltf, uint32_t p, const FrMesh *mesh,
     FrStatus status = fr_gltf_add_mesh(gltf, plant->name, plant, parts, part_count, &wood);
     g_free(parts);
     FrGltfGroups groups = {0};
-    bool is_grouped = options->leaves != FR_LEAVES_MERGED && options->skin.foliage;
+    // Leaves of rational surfaces are part of the plant's mesh: each may be bent its own way.
+    bool is_grouped = options->leaves != FR_LEAVES_MERGED && options->skin.foliage &&
+                      !g_array_index(gltf->scene->plants, FrScenePlant, p).has_nurbs;
     if (is_grouped) {
         FrStatus grouped = groups_init(&groups, plant, &options->skin, gltf->context);
         status = status == FR_OK ? grouped : status;

@@ -10,13 +10,13 @@ typedef FrStatus (*FrFormatWrite)(const FrScene *scene, const char *path,
                                   FrIoStats *stats);
 
 // A longer extension stands before the one that it ends in.
-static const char *const extensions[] = {".glb",       ".gltf", ".igs",  ".iges", ".mtg",
-                                         ".nurbs.obj", ".obj",  ".opf",  ".ply",  ".step",
-                                         ".stl",       ".stp",  ".usda", NULL};
+static const char *const extensions[] = {".3mf",  ".glb",       ".gltf", ".igs",  ".iges",
+                                         ".mtg",  ".nurbs.obj", ".obj",  ".opf",  ".ply",
+                                         ".step", ".stl",       ".stp",  ".usda", NULL};
 static const FrFormatWrite writers[] = {
-    fr_glb_write,       fr_gltf_write, fr_iges_write, fr_iges_write, fr_mtg_write,
-    fr_free_form_write, fr_obj_write,  fr_opf_write,  fr_ply_write,  fr_step_write,
-    fr_stl_write,       fr_step_write, fr_usd_write,
+    fr_three_mf_write, fr_glb_write,       fr_gltf_write, fr_iges_write, fr_iges_write,
+    fr_mtg_write,      fr_free_form_write, fr_obj_write,  fr_opf_write,  fr_ply_write,
+    fr_step_write,     fr_stl_write,       fr_step_write, fr_usd_write,
 };
 
 FrIoOptions fr_io_options_default(void) {

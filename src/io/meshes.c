@@ -40,7 +40,8 @@ FrStatus fr_io_meshes_make(FrIoMeshes *meshes, const FrScene *scene, const FrSki
             continue;
         }
         const FrPlant *plant = fr_io_plant(scene, p);
-        status = fr_skin_plant(plant, skin, up, context, &meshes->meshes[p]);
+        status = fr_scene_mesh(&g_array_index(scene->plants, FrScenePlant, p), skin, up, context,
+                               &meshes->meshes[p]);
         if (status == FR_OK) {
             count_mesh(&meshes->count, meshes->meshes[p], stands);
             status = fr_limit_check(

@@ -6,7 +6,7 @@
 enum { DEFAULT_COLOURS = 2 };
 
 FrStatus fr_io_nurbs_make(FrIoNurbs *nurbs, const FrScene *scene, const FrNurbsParams *params,
-                          uint64_t point_bytes, const FrContext *context) {
+                          bool shares, uint64_t point_bytes, const FrContext *context) {
     uint32_t plants = scene->plants->len;
     *nurbs = (FrIoNurbs){
         .skins = g_new0(FrNurbsSkin *, MAX(plants, 1)),
@@ -22,10 +22,13 @@ FrStatus fr_io_nurbs_make(FrIoNurbs *nurbs, const FrScene *scene, const FrNurbsP
         if (stands == 0) {
             continue;
         }
-        status = fr_nurbs_plant(plant, params, context, &nurbs->skins[p]);
+        const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, p);
+        const FrNurbsParams *own = built->has_nurbs ? &built->nurbs : params;
+        status = shares ? fr_nurbs_plant_shared(plant, own, context, &nurbs->skins[p])
+                        : fr_nurbs_plant(plant, own, context, &nurbs->skins[p]);
         if (status == FR_OK) {
             const FrNurbsSkin *skin = nurbs->skins[p];
-            nurbs->surfaces = fr_count_add(nurbs->surfaces, fr_count_multiply(skin->count, stands));
+            nurbs->surfaces = fr_count_add(nurbs->surfaces, fr_count_multiply(fr_nurbs_skin_surfaces(skin), stands));
             nurbs->points =
                 fr_count_add(nurbs->points, fr_count_multiply(skin->point_count, stands));
             status =

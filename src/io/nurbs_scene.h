@@ -15,10 +15,11 @@ typedef struct FrIoNurbs {
     uint64_t surfaces, points; ///< with every stand counted
 } FrIoNurbs;
 
-/// Makes the surfaces of every plant that stands somewhere. The text of all, `point_bytes` a
+/// Makes the surfaces of every plant that stands somewhere; `params` are for plants that have none.
+/// `shares`: organs may be copies. The text of all, `point_bytes` a
 /// control point, counts against the limit of bytes.
 FrStatus fr_io_nurbs_make(FrIoNurbs *nurbs, const FrScene *scene, const FrNurbsParams *params,
-                          uint64_t point_bytes, const FrContext *context);
+                          bool shares, uint64_t point_bytes, const FrContext *context);
 void fr_io_nurbs_clear(FrIoNurbs *nurbs);
 
 /// The number of a piece's colour, from 0. Each plant begins with its two defaults.

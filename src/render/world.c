@@ -100,10 +100,11 @@ void fr_world_commit(FrWorld *world) {
     }
 }
 
-static FrStatus add_plant(FrWorld *world, const FrPlant *plant, const FrSkinParams *skin,
+static FrStatus add_plant(FrWorld *world, const FrScenePlant *built, const FrSkinParams *skin,
                           const FrContext *context, uint32_t *index) {
     FrMesh *mesh = NULL;
-    FrStatus status = fr_skin_plant(plant, skin, FR_UP_Z, context, &mesh);
+    const FrPlant *plant = built->plant;
+    FrStatus status = fr_scene_mesh(built, skin, FR_UP_Z, context, &mesh);
     if (status != FR_OK) {
         return status;
     }
@@ -169,7 +170,7 @@ FrStatus fr_world_of_scene(const FrScene *scene, const FrSkinParams *skin, const
     FrStatus status = FR_OK;
     for (guint i = 0; i < scene->plants->len && status == FR_OK; i++) {
         const FrScenePlant *plant = &g_array_index(scene->plants, FrScenePlant, i);
-        status = add_plant(made, plant->plant, skin, context, &mesh_of[i]);
+        status = add_plant(made, plant, skin, context, &mesh_of[i]);
         if (status == FR_OK && fr_progress_is_cancelled(context->progress)) {
             status = FR_CANCELLED;
         }

@@ -1,4 +1,5 @@
 /// Collections: many instances of a varied plant side by side.
+#include "scene/rational.h"
 #include "scene/varied.h"
 
 #include <math.h>
@@ -81,6 +82,9 @@ FrStatus fr_scene_collect(const FrDocument *document, const FrPlantDef *definiti
         uint64_t first = seed < 0 ? definition->seed : (uint64_t)seed;
         status = make_all(document, varied, definition->id, first, count, context, scene);
         fr_varied_free(varied);
+    }
+    for (guint i = 0; status == FR_OK && i < (*scene)->plants->len; i++) {
+        fr_rational_set(&g_array_index((*scene)->plants, FrScenePlant, i), definition, time);
     }
     return status;
 }

@@ -4,6 +4,7 @@
 #include "scene/placing.h"
 #include "scene/rebuild.h"
 #include "scene/sampled.h"
+#include "scene/rational.h"
 #include "scene/varied.h"
 
 #include <math.h>
@@ -21,7 +22,8 @@ typedef struct Build {
     FrGrowing *growing;
     FrSceneParts *parts; ///< NULL
     FrSampled *sampled;
-    FrHills *hills; ///< NULL: the ground is level
+    FrHills *hills;         ///< NULL: the ground is level
+    GPtrArray *definitions; ///< FrPlantDef *, by plant of the scene
 } Build;
 
 static void clear_plant(void *data) {
@@ -178,8 +180,8 @@ static FrStatus use_plant(Build *build, const FrPlantDef *definition, int64_t ow
     return build_plant(build, definition, seed, key);
 }
 
-/// Adds a plant where `stand` says.
-static FrStatus stand_plant(Build *build, const FrPlantDef *definition, int64_t own_seed,
+/// Adds a plant where `stand` says, by the way it is grown.
+static FrStatus add_stand(Build *build, const FrPlantDef *definition, int64_t own_seed,
                             FrStand *stand) {
     if (fr_growing_is_wanted(build->scene, definition)) {
         int64_t seed = seed_of(build, own_seed);
@@ -197,6 +199,24 @@ static FrStatus stand_plant(Build *build, const FrPlantDef *definition, int64_t 
         g_array_append_val(build->scene->stands, *stand);
     }
     return status;
+}
+
+static FrStatus stand_plant(Build *build, const FrPlantDef *definition, int64_t own_seed,
+                            FrStand *stand) {
+    guint before = build->scene->plants->len;
+    FrStatus status = add_stand(build, definition, own_seed, stand);
+    for (guint i = before; i < build->scene->plants->len; i++) {
+        g_ptr_array_add(build->definitions, (void *)definition);
+    }
+    return status;
+}
+
+/// What definitions say of surfaces, once all plants are there.
+static void set_surfaces(const Build *build) {
+    for (guint i = 0; i < build->definitions->len; i++) {
+        fr_rational_set(&g_array_index(build->scene->plants, FrScenePlant, i),
+                        g_ptr_array_index(build->definitions, i), build->time);
+    }
 }
 
 static FrStatus build_place(Build *build, const FrPlaced *placed) {
@@ -311,7 +331,8 @@ static FrStatus build_scene(const FrDocument *document, int64_t seed, double tim
                    .time = time,
                    .growing = fr_growing_new(steps_at(document, time)),
                    .parts = parts,
-                   .sampled = fr_sampled_new()};
+                   .sampled = fr_sampled_new(),
+                   .definitions = g_ptr_array_new()};
     FrStatus status = fr_hills_new(build.scene->surroundings->terrain, context, &build.hills);
     if (status == FR_OK) {
         status = build_places(&build);
@@ -325,6 +346,10 @@ static FrStatus build_scene(const FrDocument *document, int64_t seed, double tim
     if (status == FR_OK) {
         status = fr_growing_run(build.growing, build.scene, context);
     }
+    if (status == FR_OK) {
+        set_surfaces(&build);
+    }
+    g_ptr_array_unref(build.definitions);
     fr_hills_free(build.hills);
     fr_growing_free(build.growing);
     fr_sampled_free(build.sampled);

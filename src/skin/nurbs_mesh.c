@@ -4,6 +4,8 @@
 // cut at the same parameters along the rims they share, so no cracks open between them.
 #include "skin/nurbs_mesh.h"
 
+#include "skin/solid.h"
+
 #include <string.h>
 
 enum { SHELL_GRAIN = 64 };
@@ -69,6 +71,19 @@ static uint32_t sum_steps(const uint8_t *steps, uint32_t pieces) {
     return sum;
 }
 
+/// A side that is shrunk opposite another one leaves nothing of a single step between them.
+static void keep_width(const FrNurbsSurface *s, uint8_t *steps_u, uint32_t pieces_u,
+                       uint8_t *steps_v, uint32_t pieces_v) {
+    uint8_t shrunk = shrunk_sides(s);
+    const unsigned both_u = FR_SHRUNK_U0 | FR_SHRUNK_U1, both_v = FR_SHRUNK_V0 | FR_SHRUNK_V1;
+    if ((shrunk & both_u) == both_u && sum_steps(steps_u, pieces_u) == 1) {
+        steps_u[0] = 2;
+    }
+    if ((shrunk & both_v) == both_v && sum_steps(steps_v, pieces_v) == 1) {
+        steps_v[0] = 2;
+    }
+}
+
 static void count_tile(const FrNurbsMeshing *meshing, FrNurbsTile *tile) {
     const FrNurbsSurface *s = &tile->piece->surface;
     uint32_t pieces_u = fr_nurbs_pieces(s->knots_u, s->degree_u, s->count_u);
@@ -113,6 +128,8 @@ static void measure_shell(const FrNurbsMeshing *meshing, FrNurbsTile *tiles, uin
             steps[pieces] = 1;
         } else {
             fr_nurbs_steps(s, &meshing->fineness, steps, steps + pieces);
+            keep_width(s, steps, pieces, steps + pieces,
+                       fr_nurbs_pieces(s->knots_v, s->degree_v, s->count_v));
         }
     }
     share_steps(meshing, tiles, count);
@@ -172,7 +189,7 @@ static FrStatus allocate(FrNurbsMeshing *meshing, const FrContext *context) {
         part->vertex_count += tile->vertices;
         part->index_count += 3 * (uint64_t)tile->triangles;
         bool is_sheet = tile->piece->kind == FR_NURBS_RIGHT || tile->piece->kind == FR_NURBS_LEFT;
-        part->is_foliage |= is_sheet && meshing->params->thickness <= 0.0;
+        part->is_foliage |= is_sheet;
     }
     FrStatus status = check_limits(meshing, parts, context);
     uint64_t vertices = 0, indices = 0;
@@ -272,6 +289,19 @@ static void read_tiles(FrNurbsMeshing *meshing) {
     }
 }
 
+/// The longest side of the box around all control points.
+static double size_of(const FrNurbsSkin *skin) {
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint64_t i = 0; i < skin->point_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], skin->points[i][k]);
+            high[k] = fmax(high[k], skin->points[i][k]);
+        }
+    }
+    double size = fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2]));
+    return size > 0.0 ? size : 1.0;
+}
+
 static FrStatus mesh_skin(FrNurbsMeshing *meshing, const FrContext *context) {
     uint64_t count = meshing->skin->count, steps = 0;
     for (uint64_t i = 0; i < count; i++) {
@@ -304,16 +334,21 @@ FrStatus fr_nurbs_mesh(const FrPlant *plant, const FrNurbsParams *params, int lo
         .params = params,
         .up = up,
         .slots = plant->materials->len + 1,
-        .fineness = {params->tolerance * pow(2.0, lod), params->turn * pow(1.4, lod)},
     };
     FrStatus status = fr_nurbs_plant(plant, params, context, &meshing.skin);
     if (status != FR_OK) {
         return status;
     }
+    double tolerance = params->tolerance > 0.0 ? params->tolerance : size_of(meshing.skin) / 2000.0;
+    meshing.fineness =
+        (FrNurbsFineness){tolerance * pow(2.0, lod), params->turn * pow(1.4, lod)};
     meshing.part_of = g_new(uint32_t, 2 * (size_t)meshing.slots);
     meshing.grids = g_new0(FrNurbsGrid, (size_t)workers);
     read_tiles(&meshing);
     status = mesh_skin(&meshing, context);
+    if (status == FR_OK && params->voxel > 0.0) {
+        status = fr_solid_of(&meshing.mesh, params->voxel, context);
+    }
     if (status == FR_OK) {
         *mesh = meshing.mesh;
     } else {

@@ -11,7 +11,7 @@ static const FrParam nurbs_rows[] = {FR_NURBS_PARAMS(FR_PARAM_ROW)};
 
 static const FrParamTable nurbs_table = {
     .element = "nurbs",
-    .meaning = "how a plant becomes rational surfaces",
+    .meaning = "the plant is shown as rational surfaces, made and bent like this",
     .rows = nurbs_rows,
     .count = G_N_ELEMENTS(nurbs_rows),
     .struct_size = sizeof(FrNurbsParams),
