@@ -72,8 +72,8 @@ typedef struct FrPlantDef {
     FrPgraph *pgraph;        ///< for FR_PLANT_PGRAPH, else empty
     FrLmodel *lsystem;       ///< for FR_PLANT_LSYSTEM, else NULL
     FrSkeleton *skeleton;    ///< for FR_PLANT_SKELETON, else NULL
-    FrVary *vary; ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
-    bool has_nurbs;      ///< it has a `<nurbs>`: it is shown as rational surfaces …
+    FrVary *vary;   ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
+    bool has_nurbs; ///< it has a `<nurbs>`: it is shown as rational surfaces …
     FrNurbsParams nurbs; ///< … with these settings, else with the usual ones
     FrSpan span;
 } FrPlantDef;

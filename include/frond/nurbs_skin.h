@@ -105,11 +105,11 @@ typedef enum FrNurbsKind {
 
 /// A surface of the skin; du × dv points outwards, for blades upwards.
 typedef struct FrNurbsPiece {
-    FrNurbsSurface surface; ///< borrows from the skin
-    uint32_t kind;          ///< FrNurbsKind
-    uint32_t material;      ///< index into the plant's materials, FR_NONE
-    uint32_t axis;          ///< what it belongs to: an axis …
-    uint32_t organ;         ///< … or an organ; FR_NONE
+    FrNurbsSurface surface;     ///< borrows from the skin
+    uint32_t kind;              ///< FrNurbsKind
+    uint32_t material;          ///< index into the plant's materials, FR_NONE
+    uint32_t axis;              ///< what it belongs to: an axis …
+    uint32_t organ;             ///< … or an organ; FR_NONE
     const double (*texture)[2]; ///< place in the picture of each control point; NULL
 } FrNurbsPiece;
 
@@ -125,8 +125,8 @@ typedef struct FrNurbsSkin {
     uint64_t count;       ///< without those of shapes
     FrNurbsCopy *copies;
     uint64_t copy_count;
-    double *knots;       ///< of all pieces
-    double (*points)[4]; ///< of all pieces
+    double *knots;         ///< of all pieces
+    double (*points)[4];   ///< of all pieces
     double (*textures)[2]; ///< of the shapes that have them
     uint64_t knot_count, point_count, texture_count;
 } FrNurbsSkin;
@@ -147,8 +147,9 @@ FR_API uint64_t fr_nurbs_skin_surfaces(const FrNurbsSkin *skin);
 FR_API FrPlant *fr_nurbs_posed(const FrPlant *plant, const FrNurbsParams *params);
 /// The triangles of a plant's surfaces, in parts like those of fr_skin_plant(): tubes and their
 /// caps, and the halves of a blade, share their rims. `lod` as there.
-FR_API FR_MUST_USE FrStatus fr_nurbs_mesh(const FrPlant *plant, const FrNurbsParams *params, int lod,
-                                          FrUpAxis up, const FrContext *context, FrMesh **mesh);
+FR_API FR_MUST_USE FrStatus fr_nurbs_mesh(const FrPlant *plant, const FrNurbsParams *params,
+                                          int lod, FrUpAxis up, const FrContext *context,
+                                          FrMesh **mesh);
 FR_API void fr_nurbs_skin_free(FrNurbsSkin *skin);
 /// Bytes of all arrays.
 FR_API uint64_t fr_nurbs_skin_bytes(const FrNurbsSkin *skin);

@@ -41,7 +41,7 @@ typedef struct CliOptions {
     int64_t samples, width, height; ///< 0: the default
     FrLeaves leaves;
     FrLimits limits;
-    GPtrArray *nurbs; ///< char *, NAME=VALUE of --nurbs
+    GPtrArray *nurbs;              ///< char *, NAME=VALUE of --nurbs
     char *camera, *stats, *preset; ///< NULL: not given
     char *plant;                   ///< to vary, NULL: the first that is a variation
     char *view;                    ///< of an L-system, NULL: the .v beside it if there is one

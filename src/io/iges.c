@@ -234,7 +234,8 @@ FrStatus fr_iges_write(const FrScene *scene, const char *path, const FrIoOptions
                        const FrContext *context, FrIoStats *stats) {
     FrIges iges = {.scene = scene, .context = context};
     gint64 start = g_get_monotonic_time();
-    FrStatus status = fr_io_nurbs_make(&iges.nurbs, scene, &options->nurbs, false, POINT_BYTES, context);
+    FrStatus status =
+        fr_io_nurbs_make(&iges.nurbs, scene, &options->nurbs, false, POINT_BYTES, context);
     if (status != FR_OK) {
         return status;
     }

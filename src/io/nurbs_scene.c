@@ -28,7 +28,8 @@ FrStatus fr_io_nurbs_make(FrIoNurbs *nurbs, const FrScene *scene, const FrNurbsP
                         : fr_nurbs_plant(plant, own, context, &nurbs->skins[p]);
         if (status == FR_OK) {
             const FrNurbsSkin *skin = nurbs->skins[p];
-            nurbs->surfaces = fr_count_add(nurbs->surfaces, fr_count_multiply(fr_nurbs_skin_surfaces(skin), stands));
+            nurbs->surfaces = fr_count_add(nurbs->surfaces,
+                                           fr_count_multiply(fr_nurbs_skin_surfaces(skin), stands));
             nurbs->points =
                 fr_count_add(nurbs->points, fr_count_multiply(skin->point_count, stands));
             status =

@@ -96,7 +96,8 @@ FrStatus fr_free_form_write(const FrScene *scene, const char *path, const FrIoOp
                             const FrContext *context, FrIoStats *stats) {
     FrFreeForm form = {.scene = scene, .context = context};
     gint64 start = g_get_monotonic_time();
-    FrStatus status = fr_io_nurbs_make(&form.nurbs, scene, &options->nurbs, false, POINT_BYTES, context);
+    FrStatus status =
+        fr_io_nurbs_make(&form.nurbs, scene, &options->nurbs, false, POINT_BYTES, context);
     if (status != FR_OK) {
         return status;
     }

@@ -125,7 +125,8 @@ FrStatus fr_step_write(const FrScene *scene, const char *path, const FrIoOptions
                        const FrContext *context, FrIoStats *stats) {
     FrStepFile file = {.scene = scene, .context = context};
     gint64 start = g_get_monotonic_time();
-    FrStatus status = fr_io_nurbs_make(&file.nurbs, scene, &options->nurbs, false, POINT_BYTES, context);
+    FrStatus status =
+        fr_io_nurbs_make(&file.nurbs, scene, &options->nurbs, false, POINT_BYTES, context);
     if (status != FR_OK) {
         return status;
     }

@@ -174,8 +174,7 @@ static void put_object(FrThreeMf *file, uint32_t plant, const FrMesh *mesh) {
             uint32_t a = places[i], b = places[i + 1], c = places[i + 2];
             if (a != b && b != c && c != a) {
                 put(file, "<triangle v1=\"%u\" v2=\"%u\" v3=\"%u\" pid=\"%d\" p1=\"%u\"/>\n",
-                    numbers[a], numbers[b], numbers[c], COLOUR_ID,
-                    file->first_colour[plant] + own);
+                    numbers[a], numbers[b], numbers[c], COLOUR_ID, file->first_colour[plant] + own);
             }
         }
     }
@@ -187,7 +186,8 @@ static void put_object(FrThreeMf *file, uint32_t plant, const FrMesh *mesh) {
 static void put_item(FrThreeMf *file, const FrStand *stand) {
     FrPose pose = fr_io_pose(stand, FR_UP_Z);
     double c = pose.scale * pose.cosine, s = pose.scale * pose.sine;
-    const double map[12] = {c, s, 0, -s, c, 0, 0, 0, pose.scale, pose.at[0], pose.at[1], pose.at[2]};
+    const double map[12] = {c, s, 0,          -s,         c,          0,
+                            0, 0, pose.scale, pose.at[0], pose.at[1], pose.at[2]};
     put(file, "<item objectid=\"%u\" transform=\"", FIRST_OBJECT + stand->plant);
     for (int i = 0; i < 12; i++) {
         put_number(file, i > 0 ? " " : "", map[i] + 0.0, "");
@@ -201,7 +201,8 @@ static bool is_there(const FrThreeMf *file, uint32_t plant) {
 
 static void put_model(FrThreeMf *file) {
     // A vertex takes some 60 bytes of text, a triangle some 70.
-    bool is_large = file->meshes.count.vertices * 60 + file->meshes.count.triangles * 70 > 2000000000;
+    bool is_large =
+        file->meshes.count.vertices * 60 + file->meshes.count.triangles * 70 > 2000000000;
     begin_entry(file, "3D/3dmodel.model", is_large);
     put(file, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
               "<model unit=\"meter\" xml:lang=\"en-US\" "
@@ -245,8 +246,8 @@ static void put_frame(FrThreeMf *file) {
 static bool write_archive_of(void *user, int descriptor) {
     FrThreeMf *file = user;
     file->descriptor = descriptor;
-    zlib_filefunc64_def functions = {open_archive,  read_archive,  write_archive,    tell_archive,
-                                     seek_archive,  close_archive, error_of_archive, file};
+    zlib_filefunc64_def functions = {open_archive, read_archive,  write_archive,    tell_archive,
+                                     seek_archive, close_archive, error_of_archive, file};
     file->zip = zipOpen2_64("", APPEND_STATUS_CREATE, NULL, &functions);
     if (file->zip == NULL) {
         errno = ENOMEM;

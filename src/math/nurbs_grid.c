@@ -1,8 +1,8 @@
 // Rational surfaces as grids of points, as fine as their curvature and size ask for.
 //
-// A chord of an arc of length l that turns by t is at most l·t/8 away from it; of n equal parts each
-// is l·t/(8n²) away. So a piece between knots wants √(l·t / (8·tolerance)) steps, and so many that
-// none turns by more than is wanted. Lengths and turns are those of the control polygons, each
+// A chord of an arc of length l that turns by t is at most l·t/8 away from it; of n equal parts
+// each is l·t/(8n²) away. So a piece between knots wants √(l·t / (8·tolerance)) steps, and so many
+// that none turns by more than is wanted. Lengths and turns are those of the control polygons, each
 // spread over the knots its points depend on: no curve turns more than its control polygon (Piegl,
 // Tiller, The NURBS Book, section 3.2). Pieces that want less than a step together are cut once.
 // Four corners that are not in a plane leave a quarter of their twist.
@@ -57,7 +57,8 @@ static void spread(const FrWants *wants, double a, double b, double amount, doub
 /// The angle whose chord of the unit circle is that long, a little rounded.
 static double angle_of(double chord) {
     double square = chord * chord;
-    return chord * (1.0 + square / 24.0 + 3.0 * square * square / 640.0) * (square > 2.0 ? 1.2 : 1.0);
+    return chord * (1.0 + square / 24.0 + 3.0 * square * square / 640.0) *
+           (square > 2.0 ? 1.2 : 1.0);
 }
 
 static void follow_line(const FrWay *way, const FrWants *wants, const double (*points)[4]) {
@@ -180,8 +181,7 @@ static void untwist(const FrNurbsSurface *s, const FrWants *u, uint32_t groups_u
                     const FrWants *v, uint32_t groups_v, uint8_t *steps_v, double tolerance) {
     for (uint32_t n = 0; n < groups_u * groups_v; n++) {
         uint32_t i = n % groups_u, j = n / groups_u;
-        double twist =
-            twist_of(s, u->lines[i], u->lines[i + 1], v->lines[j], v->lines[j + 1]);
+        double twist = twist_of(s, u->lines[i], u->lines[i + 1], v->lines[j], v->lines[j + 1]);
         uint8_t *a = &steps_u[with_steps(steps_u, i)], *b = &steps_v[with_steps(steps_v, j)];
         double more = sqrt(twist / (4.0 * TWIST_SHARE * tolerance * *a * *b));
         if (more > 1.0) {

@@ -53,8 +53,8 @@ static void make_row(const FrNurbsSurface *s, const FrBases *v, const double (*c
 static bool unit_cross(const double a[3], const double b[3], double normal[3]) {
     double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
     double z = a[0] * b[1] - a[1] * b[0], length = sqrt(x * x + y * y + z * z);
-    double sizes = sqrt((a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) *
-                        (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
+    double sizes =
+        sqrt((a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
     bool is_plain = length > 1e-7 * sizes && sizes > 0.0;
     normal[0] = is_plain ? x / length : 0.0;
     normal[1] = is_plain ? y / length : 0.0;

@@ -4,6 +4,6 @@
 
 #include "frond/scene.h"
 
-/// Gives a plant what its definition says of its surfaces when the clocks show `time`; NAN: what the
-/// definition's own shows.
+/// Gives a plant what its definition says of its surfaces when the clocks show `time`; NAN: what
+/// the definition's own shows.
 void fr_rational_set(FrScenePlant *plant, const FrPlantDef *definition, double time);

@@ -2,9 +2,9 @@
 #include "scene/growing.h"
 #include "scene/obstacles.h"
 #include "scene/placing.h"
+#include "scene/rational.h"
 #include "scene/rebuild.h"
 #include "scene/sampled.h"
-#include "scene/rational.h"
 #include "scene/varied.h"
 
 #include <math.h>
@@ -182,7 +182,7 @@ static FrStatus use_plant(Build *build, const FrPlantDef *definition, int64_t ow
 
 /// Adds a plant where `stand` says, by the way it is grown.
 static FrStatus add_stand(Build *build, const FrPlantDef *definition, int64_t own_seed,
-                            FrStand *stand) {
+                          FrStand *stand) {
     if (fr_growing_is_wanted(build->scene, definition)) {
         int64_t seed = seed_of(build, own_seed);
         seed = seed < 0 && definition->has_seed ? (int64_t)definition->seed : seed;

@@ -101,7 +101,8 @@ uint64_t fr_mesh_open_edges(const FrMesh *mesh, bool *is_closed) {
     uint64_t open = 0;
     for (uint64_t i = 0, end; i < mesh->index_count; i = end) {
         int64_t balance = 0;
-        for (end = i; end < mesh->index_count && compare_edges(&edges[i], &edges[end]) == 0; end++) {
+        for (end = i; end < mesh->index_count && compare_edges(&edges[i], &edges[end]) == 0;
+             end++) {
             balance += edges[end].is_turned ? 1 : -1;
         }
         if (balance != 0 && edges[i].low != edges[i].high) {

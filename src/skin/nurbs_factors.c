@@ -1,4 +1,5 @@
-// Global factors: wind, light and gravity. Beneš, Generating a Model of Plant Using NURBS, Figure 6.
+// Global factors: wind, light and gravity. Beneš, Generating a Model of Plant Using NURBS,
+// Figure 6.
 //
 // Each is a vector. How far a point of a branch yields follows from the vector, from the point's
 // distance σ from where the branch of length L begins, and from the branch's radius r:
@@ -99,7 +100,8 @@ static FrReach measure(const FrPlant *plant) {
 static void bend_branches(FrPlant *plant, const FrNurbsParams *params) {
     FrNodes *nodes = &plant->nodes;
     FrReach reach = measure(plant);
-    double *along = g_new0(double, (size_t)nodes->count + 1), *turned = g_new0(double, nodes->count + 1);
+    double *along = g_new0(double, (size_t)nodes->count + 1),
+           *turned = g_new0(double, nodes->count + 1);
     for (uint32_t i = 0; i < nodes->count; i++) {
         uint32_t axis = nodes->axis[i], parent = nodes->parent[i];
         bool is_first = plant->axes.first[axis] == i;
@@ -191,8 +193,8 @@ typedef struct FrCarried {
 } FrCarried;
 
 /// Bends a petiole row by row; answers what becomes of its end.
-static FrCarried bend_petiole(const FrNurbsParams *params, const FrNurbsSurface *stem,
-                              vec3s force, double (*points)[4]) {
+static FrCarried bend_petiole(const FrNurbsParams *params, const FrNurbsSurface *stem, vec3s force,
+                              double (*points)[4]) {
     uint32_t width = stem->count_u, rows = stem->count_v;
     FrCarried end = {.turn = glms_quat_identity()};
     double radius, last[3];
@@ -209,8 +211,8 @@ static FrCarried bend_petiole(const FrNurbsParams *params, const FrNurbsSurface 
         vec3s heading = glms_vec3_normalize(glms_quat_rotatev(end.turn, way));
         double turned = weak * share * share;
         double angle = (turned - before) * across_length(heading, force);
-        end.turn = glms_quat_normalize(
-            glms_quat_mul(turn_towards(heading, force, angle), end.turn));
+        end.turn =
+            glms_quat_normalize(glms_quat_mul(turn_towards(heading, force, angle), end.turn));
         double step[4] = {middle[0], middle[1], middle[2], 1.0};
         turn_about(step, last, end.to, end.turn);
         memcpy(last, middle, sizeof last);
@@ -237,8 +239,7 @@ static void bend_half(const FrNurbsParams *params, const FrNurbsPiece *piece, ve
             double reach = sqrt(fr_dot3(way, way));
             if (j != midrib && reach > 0.0) {
                 vec3s heading = glms_vec3_scale(to_single(way), (float)(1.0 / reach));
-                double angle =
-                    params->blade_yield * reach / half * across_length(heading, force);
+                double angle = params->blade_yield * reach / half * across_length(heading, force);
                 turn_about(point, foot, foot, turn_towards(heading, force, angle));
             }
         }

@@ -24,8 +24,8 @@ static void lay_cap(GArray *forms, const FrNurbsStation *end, bool is_tip) {
     const FrNurbsForm *last = &g_array_index(forms, FrNurbsForm, forms->len - 1);
     FrNurbsForm tube = is_tip ? g_array_index(forms, FrNurbsForm, forms->len - 2) : *last;
     uint32_t width = tube.count_u;
-    FrNurbsForm *cap = fr_nurbs_form_add(forms, is_tip ? FR_NURBS_CAP : FR_NURBS_FOOT,
-                                         tube.degree_u, width, 1, 2);
+    FrNurbsForm *cap =
+        fr_nurbs_form_add(forms, is_tip ? FR_NURBS_CAP : FR_NURBS_FOOT, tube.degree_u, width, 1, 2);
     static const double ruled[] = {0, 0, 1, 1};
     memcpy(cap->knots_u, tube.knots_u, sizeof(double) * (width + tube.degree_u + 1));
     memcpy(cap->knots_v, ruled, sizeof ruled);

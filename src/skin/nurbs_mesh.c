@@ -1,7 +1,7 @@
 // Rational skin → triangles: choose grids, count, allocate once, write in parallel.
 //
-// A shell is a tube with its caps, the two halves of a blade, or one surface alone. Its surfaces are
-// cut at the same parameters along the rims they share, so no cracks open between them.
+// A shell is a tube with its caps, the two halves of a blade, or one surface alone. Its surfaces
+// are cut at the same parameters along the rims they share, so no cracks open between them.
 #include "skin/nurbs_mesh.h"
 
 #include "skin/solid.h"
@@ -33,10 +33,8 @@ static void find_shells(FrNurbsMeshing *meshing) {
             first = i;
             meshing->shells[meshing->shell_count++] = i;
         }
-        meshing->tiles[i] = (FrNurbsTile){.piece = piece,
-                                          .steps = steps,
-                                          .slot = slot_of(meshing, piece),
-                                          .box = fr_box_empty()};
+        meshing->tiles[i] = (FrNurbsTile){
+            .piece = piece, .steps = steps, .slot = slot_of(meshing, piece), .box = fr_box_empty()};
         steps += piece->surface.count_u + piece->surface.count_v;
     }
     meshing->shells[meshing->shell_count] = count;
@@ -340,8 +338,7 @@ FrStatus fr_nurbs_mesh(const FrPlant *plant, const FrNurbsParams *params, int lo
         return status;
     }
     double tolerance = params->tolerance > 0.0 ? params->tolerance : size_of(meshing.skin) / 2000.0;
-    meshing.fineness =
-        (FrNurbsFineness){tolerance * pow(2.0, lod), params->turn * pow(1.4, lod)};
+    meshing.fineness = (FrNurbsFineness){tolerance * pow(2.0, lod), params->turn * pow(1.4, lod)};
     meshing.part_of = g_new(uint32_t, 2 * (size_t)meshing.slots);
     meshing.grids = g_new0(FrNurbsGrid, (size_t)workers);
     read_tiles(&meshing);

@@ -144,8 +144,12 @@ static void write_forms(const FrNurbsJob *job, const FrNurbsShapeForms *shape,
         write_form(form, axes, at, points);
         uint32_t knots_u = form->count_u + form->degree_u + 1;
         pieces[f] = like;
-        pieces[f].surface = (FrNurbsSurface){form->degree_u, form->degree_v,  form->count_u,
-                                             form->count_v,  knots,           knots + knots_u,
+        pieces[f].surface = (FrNurbsSurface){form->degree_u,
+                                             form->degree_v,
+                                             form->count_u,
+                                             form->count_v,
+                                             knots,
+                                             knots + knots_u,
                                              (const double(*)[4])points};
         pieces[f].kind = form->kind;
         pieces[f].texture = form->texture != NULL ? texture : NULL;
@@ -178,8 +182,8 @@ static void write_organ(const FrNurbsJob *job, uint32_t organ, int worker) {
     pose_of(plant, organ, axes, at);
     if (is_copy(job, organ)) {
         FrNurbsCopy *copy = &job->skin->copies[place->piece];
-        *copy = (FrNurbsCopy){
-            .organ = organ, .piece_count = place->rows, .first_piece = shape->piece};
+        *copy =
+            (FrNurbsCopy){.organ = organ, .piece_count = place->rows, .first_piece = shape->piece};
         memcpy(copy->axes, axes, sizeof axes);
         memcpy(copy->at, at, sizeof at);
         return;

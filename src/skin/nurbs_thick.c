@@ -6,9 +6,9 @@
 /// Both halves side by side: columns from the right margin to the midrib to the left margin.
 typedef struct FrThick {
     FrNurbsTile *halves;
-    uint32_t rows, columns;    ///< along and across
-    double (*points)[3];       ///< row by row
-    double (*normals)[3];      ///< unit
+    uint32_t rows, columns; ///< along and across
+    double (*points)[3];    ///< row by row
+    double (*normals)[3];   ///< unit
     double (*blended)[2];
 } FrThick;
 
@@ -18,7 +18,8 @@ static uint32_t columns_of(const FrNurbsTile halves[2]) {
 
 /// Edges of a half on the rim: its margin, and where the blade begins and ends if it is wide there.
 static uint32_t rim_edges(const FrNurbsTile *half) {
-    bool has_base = (half->shrunk & FR_SHRUNK_U0) == 0, has_tip = (half->shrunk & FR_SHRUNK_U1) == 0;
+    bool has_base = (half->shrunk & FR_SHRUNK_U0) == 0,
+         has_tip = (half->shrunk & FR_SHRUNK_U1) == 0;
     return half->points_u - 1 + ((has_base ? 1U : 0U) + (has_tip ? 1U : 0U)) * (half->points_v - 1);
 }
 
@@ -34,7 +35,8 @@ static void take_half(FrThick *thick, const FrNurbsTile *half, uint32_t first,
                       const FrNurbsGrid *grid) {
     for (uint32_t j = 0; j < half->points_v; j++) {
         for (uint32_t i = 0; i < half->points_u; i++) {
-            size_t to = (size_t)i * thick->columns + first + j, from = (size_t)j * half->points_u + i;
+            size_t to = (size_t)i * thick->columns + first + j,
+                   from = (size_t)j * half->points_u + i;
             memcpy(thick->points[to], grid->points[from], sizeof *thick->points);
             memcpy(thick->blended[to], grid->blended[from], sizeof *thick->blended);
             bool is_shared = first > 0 && j == 0;
@@ -151,8 +153,8 @@ void fr_nurbs_write_thick(FrNurbsMeshing *meshing, FrNurbsTile halves[2], FrNurb
     const FrMeshPart *part = &meshing->mesh->parts[meshing->part_of[halves[0].slot]];
     put_vertices(meshing, &thick,
                  meshing->mesh->vertices + part->first_vertex + halves[0].first_vertex);
-    FrThickWriter writer = {.index = meshing->mesh->indices + part->first_index +
-                                     halves[0].first_index,
+    FrThickWriter writer = {.index =
+                                meshing->mesh->indices + part->first_index + halves[0].first_index,
                             .first = (uint32_t)halves[0].first_vertex,
                             .below = (uint32_t)count};
     put_half(&writer, &thick, &halves[0], 0);

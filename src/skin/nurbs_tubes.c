@@ -117,7 +117,8 @@ static void write_tube(const FrNurbsJob *job, uint32_t index, int worker) {
         write_cap(job, piece + 2, piece, true, path->stations[path->count - 1].at,
                   net + (size_t)width * place->rows);
     }
-    fr_nurbs_deform(job, tube->scope, all, (uint64_t)width * (place->rows + (has_caps ? 2 : 0)), worker);
+    fr_nurbs_deform(job, tube->scope, all, (uint64_t)width * (place->rows + (has_caps ? 2 : 0)),
+                    worker);
 }
 
 static void write_tubes(void *data, size_t begin, size_t end, int worker) {

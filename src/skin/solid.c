@@ -1,11 +1,11 @@
 // The outer surface of overlapping closed surfaces, as one solid.
 // Doi, Koide. An efficient method of triangulating equi-valued surfaces by using tetrahedral cells.
-// IEICE Transactions E74(1), 1991: of a tetrahedron's corners those inside are cut off by one or two
-// triangles, and neighbours agree on what their common face has, so the surface is closed.
+// IEICE Transactions E74(1), 1991: of a tetrahedron's corners those inside are cut off by one or
+// two triangles, and neighbours agree on what their common face has, so the surface is closed.
 //
-// A cell of the lattice is six tetrahedra, one for each order of going along x, y and z (Freudenthal
-// 1942). Where an edge passes the surface is known exactly (solid_lines.c); points keep a little
-// away from the corners, so that no triangle is without an area.
+// A cell of the lattice is six tetrahedra, one for each order of going along x, y and z
+// (Freudenthal 1942). Where an edge passes the surface is known exactly (solid_lines.c); points
+// keep a little away from the corners, so that no triangle is without an area.
 #include "skin/solid.h"
 
 #include "skin/mesh.h"
@@ -338,8 +338,8 @@ static FrMesh *to_mesh(const FrSolid *solid, uint32_t material) {
             max[k] = fmaxf(max[k], at[k]);
         }
     }
-    mesh->parts[0] = (FrMeshPart){
-        .material = material, .vertex_count = vertices, .index_count = indices};
+    mesh->parts[0] =
+        (FrMeshPart){.material = material, .vertex_count = vertices, .index_count = indices};
     fr_part_set_box(&mesh->parts[0], min, max);
     return mesh;
 }
@@ -376,9 +376,9 @@ FrStatus fr_solid_of(FrMesh **mesh, double width, const FrContext *context) {
     bool is_in_reach = place(*mesh, &solid);
     size_t triangles = is_in_reach ? take_corners(*mesh, &solid, &corners, context) : 0;
     double wanted = is_in_reach ? triangles_wanted((const double(*)[3])corners, triangles) : 1e18;
-    FrStatus status = fr_limit_check((uint64_t)fmin(wanted, 1e18), context->limits.triangles,
-                                     "triangles", "the solid of these voxels", (FrSpan){0},
-                                     context->diags);
+    FrStatus status =
+        fr_limit_check((uint64_t)fmin(wanted, 1e18), context->limits.triangles, "triangles",
+                       "the solid of these voxels", (FrSpan){0}, context->diags);
     if (status == FR_OK) {
         status = make(mesh, &solid, (const double(*)[3])corners, triangles, context);
     }
