@@ -126,7 +126,8 @@ static void blades(void) {
         const FrNurbsSurface *s = &before->pieces[i].surface;
         for (uint32_t c = 0; c < s->count_u; c++) {
             const double *a = s->points[c], *b = s->points[s->count_u * (s->count_v - 1) + c];
-            half = fmax(half, sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2)));
+            half =
+                fmax(half, sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2)));
         }
     }
     for (uint64_t i = 0; i < 2; i++) {
@@ -227,9 +228,14 @@ static void weights(void) {
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/skin/factors/vectors of length zero change nothing", identity);
-    g_test_add_func("/skin/factors/a branch yields by distance and radius and keeps its length", formula);
-    g_test_add_func("/skin/factors/gravity pulls down, light up, and a storm no further than it blows", directions);
-    g_test_add_func("/skin/factors/a blade yields by the distance of its control points from the midrib", blades);
+    g_test_add_func("/skin/factors/a branch yields by distance and radius and keeps its length",
+                    formula);
+    g_test_add_func(
+        "/skin/factors/gravity pulls down, light up, and a storm no further than it blows",
+        directions);
+    g_test_add_func(
+        "/skin/factors/a blade yields by the distance of its control points from the midrib",
+        blades);
     g_test_add_func("/skin/factors/the wind comes in waves that come round", waves);
     g_test_add_func("/skin/factors/weights are the radii of branches", weights);
     return g_test_run();

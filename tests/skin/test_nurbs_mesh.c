@@ -299,7 +299,8 @@ static void open_is_told(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/skin/nurbs_mesh/no point of a surface is farther away than asked", near_surface);
+    g_test_add_func("/skin/nurbs_mesh/no point of a surface is farther away than asked",
+                    near_surface);
     g_test_add_func("/skin/nurbs_mesh/what bends more or is larger has more triangles", adapts);
     g_test_add_func("/skin/nurbs_mesh/a tube with caps is closed and has its volume", closed);
     g_test_add_func("/skin/nurbs_mesh/halves of a blade meet without a crack", uncracked);
@@ -307,6 +308,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/nurbs_mesh/any number of threads makes the same triangles", threads);
     g_test_add_func("/skin/nurbs_mesh/too many triangles are refused", limits);
     g_test_add_func("/skin/nurbs_mesh/overlapping surfaces become one watertight solid", one_solid);
-    g_test_add_func("/skin/nurbs_mesh/open surfaces are no part of a solid, and that is told", open_is_told);
+    g_test_add_func("/skin/nurbs_mesh/open surfaces are no part of a solid, and that is told",
+                    open_is_told);
     return g_test_run();
 }
