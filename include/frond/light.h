@@ -88,7 +88,7 @@ typedef struct FrLightScene {
     vec3s min, max;
     bool has_reference;
     vec3s reference; ///< answers are relative to the light at this place
-    FrSpan span;     ///< where a document asks for it, for messages
+    FrSpan span;     ///< where a document names that place, for messages
 } FrLightScene;
 
 /// The light at a point.

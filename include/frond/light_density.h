@@ -21,11 +21,12 @@
 
 typedef struct FrDensityParams {
     FR_DENSITY_PARAMS(FR_PARAM_FIELD)
+    FrSpan span; ///< where a document asks for so many photons, for messages
 } FrDensityParams;
 
 FR_API const FrParamTable *fr_density_table(void);
 FR_API FrDensityParams fr_density_default(void);
 /// Density of rays; `threads` of the context's pool are those that the search structure may use
-/// later. FR_ERR_LIMIT if there are more photons than FrLimits allows.
+/// later. FR_ERR_LIMIT if there are more photons, or they take more bytes, than FrLimits allows.
 FR_API FR_MUST_USE FrStatus fr_light_density_new(const FrDensityParams *params,
                                                  const FrContext *context, FrLight **light);

@@ -18,7 +18,7 @@
     X(modules, 400000000, "modules of the string of an L-system")                                  \
     X(iterations, 100000000, "times around the loops of an L-system in one step")                  \
     X(plants, 100000, "plants of a scene")                                                         \
-    X(photons, 200000000, "photons of one light")                                                  \
+    X(photons, 20000000, "photons of one light")                                                   \
     X(plant_triangles, 25000000, "triangles of the surface of one plant")                          \
     X(triangles, 400000000, "triangles of one output")                                             \
     X(pixels, 100000000, "pixels of one picture or texture")                                       \

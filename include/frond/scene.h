@@ -63,7 +63,22 @@ FR_API FR_MUST_USE FrStatus fr_scene_build(const FrDocument *document, int64_t s
 FR_API FR_MUST_USE FrStatus fr_scene_grow(const FrDocument *document, const FrPlantDef *definition,
                                           int64_t seed, double time, const FrContext *context,
                                           FrScenePlant *plant, FrPgraphCounts *counts);
-/// The same with the clocks of all plants at `time`, in years; NAN: as the document says.
+/// What is wrong with a document that only building it tells. What grows in the light is not grown:
+/// it is looked at as it begins, and so is in the scene.
+FR_API FR_MUST_USE FrStatus fr_scene_check(const FrDocument *document, int64_t seed,
+                                           const FrContext *context, FrScene **scene);
+/// Is shown an L-system that grows in the light of its scene; see fr_scene_derive().
+typedef FrStatus (*FrDerivedFn)(void *user, FrLderivation *derivation, bool is_answered);
+/// True if plants of this definition would grow in the light of the document's scene.
+FR_API bool fr_scene_is_lit(const FrDocument *document, const FrPlantDef *definition);
+/// Builds the scene and shows the first plant of the definition in each step, as it was derived
+/// and again as the light has answered it, and at last as it stands in the end. An error of `see`
+/// ends it.
+FR_API FR_MUST_USE FrStatus fr_scene_derive(const FrDocument *document,
+                                            const FrPlantDef *definition, int64_t seed,
+                                            const FrContext *context, FrDerivedFn see, void *user);
+/// The same as fr_scene_build() with the clocks of all plants at `time`, in years; NAN: as the
+/// document says.
 FR_API FR_MUST_USE FrStatus fr_scene_build_at(const FrDocument *document, int64_t seed, double time,
                                               const FrContext *context, FrScene **scene);
 /// `count` instances of a plant side by side, of seeds `seed` (< 0: the plant's), `seed` + 1, …; a

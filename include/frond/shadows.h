@@ -63,11 +63,13 @@ typedef struct FrShadowLightSettings {
     int64_t depth;
     double cell;   ///< m; made wider where the scene would need more than `cells`
     int64_t cells; ///< at most so many voxels
+    FrSpan span;   ///< where a document asks for them, for messages
 } FrShadowLightSettings;
 
 /// The constants of fr_shadows_default(), voxels of 0.2 m, at most 8 million of them.
 FR_API FrShadowLightSettings fr_shadow_light_default(void);
 /// A backend of shadow voxels. Surfaces cast a shadow for every cell² of their area in a voxel, at
-/// least one; lamps are not asked, light falls from above. Confidence grows with the slope; where
-/// nothing shades it is 1.
+/// least one. Light falls from above, whatever sun or sky there is; without both it is dark, for
+/// point, spot and area lamps are not asked. Confidence is four times the slope, at most 1; where
+/// nothing shades it is 0, as light comes from everywhere alike.
 FR_API FrLight *fr_shadow_light_new(const FrShadowLightSettings *settings);

@@ -12,6 +12,7 @@
 
 /// An `<obstacle>`: something that stands in the way of light.
 #define FR_OBSTACLE_PARAMS(X)                                                                      \
+    X(TEXT, id, "", 0, 0, "", "", "its name, for --set; need not have one")                        \
     X(CHOICE, shape, "box", 0, 0, "", "box sphere cylinder cone square circle mesh sweep",         \
       "its form; square and circle are flat and stand, facing y; a mesh is read from `file`; a "   \
       "sweep is drawn along the points x,y,z of its text")                                         \
@@ -43,6 +44,7 @@
 
 /// A `<lamp>`.
 #define FR_LAMP_PARAMS(X)                                                                          \
+    X(TEXT, id, "", 0, 0, "", "", "its name, for --set; need not have one")                        \
     X(CHOICE, kind, "point", 0, 0, "", "point spot area",                                          \
       "shines all around, in a cone, or from a rectangle")                                         \
     X(VECTOR, at, "0, 0, 2", -1000000, 1000000, "m", "", "where it hangs: its middle")             \
@@ -111,6 +113,7 @@ typedef struct FrLightParams {
     FR_DENSITY_PARAMS(FR_PARAM_FIELD)
     bool is_given; ///< the document has a `<light>`
     FrSpan span;
+    FrSpan photons_place, reference_place; ///< of those attributes, else as `span`
 } FrLightParams;
 
 FR_API const FrParamTable *fr_obstacle_table(void);

@@ -1,4 +1,5 @@
-/// frond check: what is wrong with documents. They are also grown, for much is known only then.
+/// frond check: what is wrong with documents. They are also built, for much is known only then; but
+/// what grows in the light is not grown.
 #include "cli/cli.h"
 
 #include <math.h>
@@ -67,7 +68,7 @@ FrStatus cli_check(CliSession *session) {
             // A document may hold materials and curves only.
             if (status == FR_OK && fr_document_plants(document)->len > 0) {
                 status =
-                    fr_scene_build(document, session->options->seed, &session->context, &scene);
+                    fr_scene_check(document, session->options->seed, &session->context, &scene);
             }
             if (scene != NULL) {
                 status = check_others(session, document, scene);

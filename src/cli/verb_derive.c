@@ -41,16 +41,25 @@ static FrStatus derive_open(CliSession *session, FrLderivation *derivation) {
     }
 }
 
-/// A line for each step: its number, the modules, and how many they are after homomorphism.
+/// A step's number, the modules, and how many they are after homomorphism.
+static FrStatus print_step(const CliSession *session, FrLderivation *derivation) {
+    uint64_t interpreted;
+    FrStatus status = fr_lderivation_count(derivation, &session->context, &interpreted);
+    if (status == FR_OK) {
+        printf("%" G_GUINT64_FORMAT " %" G_GUINT64_FORMAT " %" G_GUINT64_FORMAT "\n",
+               fr_lderivation_step(derivation), fr_lstring_count(fr_lderivation_string(derivation)),
+               interpreted);
+    }
+    return status;
+}
+
 static FrStatus derive_steps(CliSession *session, FrLderivation *derivation) {
     for (;;) {
-        uint64_t step = fr_lderivation_step(derivation), interpreted;
-        FrStatus status = fr_lderivation_count(derivation, &session->context, &interpreted);
+        uint64_t step = fr_lderivation_step(derivation);
+        FrStatus status = print_step(session, derivation);
         if (status != FR_OK) {
             return status;
         }
-        printf("%" G_GUINT64_FORMAT " %" G_GUINT64_FORMAT " %" G_GUINT64_FORMAT "\n", step,
-               fr_lstring_count(fr_lderivation_string(derivation)), interpreted);
         if (step >= fr_lderivation_length(derivation) || fr_lderivation_is_stopped(derivation)) {
             return FR_OK;
         }
@@ -59,6 +68,39 @@ static FrStatus derive_steps(CliSession *session, FrLderivation *derivation) {
             return status;
         }
     }
+}
+
+/// What is looked at in the light of a scene.
+typedef struct Seen {
+    const CliSession *session;
+    uint64_t count; ///< modules of the last string
+} Seen;
+
+static FrStatus see(void *user, FrLderivation *derivation, bool is_answered) {
+    Seen *seen = user;
+    const CliOptions *options = seen->session->options;
+    seen->count = fr_lstring_count(fr_lderivation_string(derivation));
+    if (options->prints_steps) {
+        return is_answered ? FR_OK : print_step(seen->session, derivation);
+    }
+    if (!options->prints_count) {
+        printf("%" G_GUINT64_FORMAT "%s: ", fr_lderivation_step(derivation),
+               is_answered ? "'" : "");
+        print_string(derivation, false);
+    }
+    return FR_OK;
+}
+
+/// An L-system that grows in its scene, in the light of everything there.
+static FrStatus derive_in_light(CliSession *session, const FrDocument *document,
+                                const FrPlantDef *plant) {
+    Seen seen = {session, 0};
+    FrStatus status =
+        fr_scene_derive(document, plant, session->options->seed, &session->context, see, &seen);
+    if (status == FR_OK && session->options->prints_count && !session->options->prints_steps) {
+        printf("%" G_GUINT64_FORMAT "\n", seen.count);
+    }
+    return status;
 }
 
 static FrStatus derive(CliSession *session, const FrPlantDef *plant) {
@@ -100,7 +142,13 @@ FrStatus cli_derive(CliSession *session) {
         return status;
     }
     const FrPlantDef *plant = cli_lsystem_find(session, document);
-    status = plant == NULL ? FR_ERR_USAGE : derive(session, plant);
+    if (plant == NULL) {
+        status = FR_ERR_USAGE;
+    } else if (fr_scene_is_lit(document, plant)) {
+        status = derive_in_light(session, document, plant);
+    } else {
+        status = derive(session, plant);
+    }
     fr_document_free(document);
     return status;
 }

@@ -5,6 +5,13 @@
 
 #include <math.h>
 
+/// A name that `--set` may call it by; none is as good.
+static void check_name(FrReader *reader, uint32_t node, const char *id) {
+    if (id != NULL && *id != '\0') {
+        g_free(fr_read_id(reader, node));
+    }
+}
+
 static void read_obstacle_mesh(FrReader *reader, uint32_t node, FrObstacle *obstacle) {
     if (obstacle->file == NULL) {
         fr_read_error(reader, "missing-attribute", reader->tree->nodes[node].name,
@@ -35,6 +42,7 @@ static void read_obstacle(FrReader *reader, uint32_t node) {
     fr_params_init(fr_obstacle_table(), obstacle);
     obstacle->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
     fr_read_attributes(reader, node, FR_ELEMENT_OBSTACLE, obstacle);
+    check_name(reader, node, obstacle->id);
     obstacle->made_of = fr_read_material(reader, node, "material", obstacle->material);
     if (obstacle->shape == FR_OBSTACLE_MESH) {
         read_obstacle_mesh(reader, node, obstacle);
@@ -74,6 +82,7 @@ static void read_lamp(FrReader *reader, uint32_t node) {
     fr_params_init(fr_lamp_table(), lamp);
     lamp->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
     fr_read_attributes(reader, node, FR_ELEMENT_LAMP, lamp);
+    check_name(reader, node, lamp->id);
     vec3s d = lamp->direction;
     if (d.x == 0 && d.y == 0 && d.z == 0) {
         fr_read_error(reader, "no-direction", fr_read_value_place(reader, node, "direction"),
@@ -126,6 +135,22 @@ static void read_light(FrReader *reader, uint32_t node) {
     fr_read_attributes(reader, node, FR_ELEMENT_LIGHT, light);
     light->is_given = true;
     light->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
+    light->photons_place = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "photons"));
+    light->reference_place =
+        fr_xml_span(reader->tree, fr_read_value_place(reader, node, "reference"));
+}
+
+/// Shadows fall from a sky; whoever hangs up lamps for plants that see only those is told.
+static void warn_of_lamps(FrReader *reader) {
+    const FrSurroundings *surroundings = &reader->document->surroundings;
+    for (guint i = 0; i < surroundings->lamps->len; i++) {
+        const FrLampParams *lamp = g_ptr_array_index(surroundings->lamps, i);
+        if (surroundings->light.by == FR_LIGHT_BY_SHADOWS && lamp->power > 0) {
+            fr_diags_add(reader->diags, FR_WARNING, "unseen-lamp", lamp->span,
+                         "plants that sense light by shadows do not see lamps; views and density "
+                         "do");
+        }
+    }
 }
 
 void fr_read_surroundings(FrReader *reader, uint32_t scene) {
@@ -148,6 +173,7 @@ void fr_read_surroundings(FrReader *reader, uint32_t scene) {
     uint32_t light = fr_read_first(reader, scene, FR_ELEMENT_LIGHT);
     if (light != FR_NONE) {
         read_light(reader, light);
+        warn_of_lamps(reader);
     }
 }
 

@@ -12,7 +12,7 @@ enum { LISTED_PATHS = 12 };
 typedef struct Target {
     uint32_t node;
     FrElementId element;
-    char *name;  ///< its id or name; "scene", "lsystem", "vary"
+    char *name;  ///< its id or name; "scene", "lsystem", "vary", "lamp-2"
     char *plant; ///< id of the plant around it, NULL
 } Target;
 
@@ -32,6 +32,30 @@ static char *name_of(const FrXmlTree *tree, uint32_t node, FrElementId element) 
     const FrXmlAttribute *attribute =
         fr_xml_attribute(tree, node, element == FR_ELEMENT_VIEW ? "name" : "id");
     return attribute == NULL ? NULL : fr_xml_decode(tree, attribute->value, true);
+}
+
+/// Lamps and obstacles without ids are called by what they are, and by their numbers where there
+/// are several.
+static void name_unnamed(const FrXmlTree *tree, GArray *targets, FrElementId element) {
+    guint last = 0, count = 0;
+    for (uint32_t node = 0; node < tree->node_count; node++) {
+        if (tree->nodes[node].kind != FR_XML_ELEMENT ||
+            !fr_xml_equals(tree, tree->nodes[node].name, fr_element(element).name)) {
+            continue;
+        }
+        count++;
+        if (fr_xml_attribute(tree, node, "id") == NULL) {
+            const char *kind = fr_element(element).name;
+            Target target = {node, element, g_strdup_printf("%s-%u", kind, count), NULL};
+            g_array_append_val(targets, target);
+            last = targets->len;
+        }
+    }
+    if (count == 1 && last > 0) {
+        Target *only = &g_array_index(targets, Target, last - 1);
+        g_free(only->name);
+        only->name = g_strdup(fr_element(element).name);
+    }
 }
 
 static GArray *collect_targets(const FrXmlTree *tree) {
@@ -61,6 +85,8 @@ static GArray *collect_targets(const FrXmlTree *tree) {
         }
     }
     g_free(plant);
+    name_unnamed(tree, targets, FR_ELEMENT_LAMP);
+    name_unnamed(tree, targets, FR_ELEMENT_OBSTACLE);
     return targets;
 }
 

@@ -21,7 +21,7 @@ const FrParamTable *fr_density_table(void) {
 }
 
 FrDensityParams fr_density_default(void) {
-    FrDensityParams params;
+    FrDensityParams params = {.span = {0}};
     fr_params_init(&density_table, &params);
     return params;
 }
@@ -129,7 +129,8 @@ static FrStatus trace_paths(FrDensity *density, const FrLightScene *scene, vec3s
 static FrStatus set_scene(FrLight *light, const FrLightScene *scene, const FrContext *context) {
     FrDensity *density = density_of(light);
     uint32_t added = 0, removed = 0;
-    FrStatus status = fr_surfaces_set(density->surfaces, scene, context, &added, &removed);
+    FrStatus status =
+        fr_surfaces_set(density->surfaces, scene, density->params.span, context, &added, &removed);
     if (status != FR_OK) {
         density->is_whole = false;
         return status;
@@ -142,7 +143,10 @@ static FrStatus set_scene(FrLight *light, const FrLightScene *scene, const FrCon
     if (status != FR_OK) {
         return status;
     }
-    fr_octree_update(density->tree, density->paths, context->pool);
+    status = fr_octree_update(density->tree, density->paths, context);
+    if (status != FR_OK) {
+        return status;
+    }
     density->recast = density->paths->traced;
     fr_paths_settle(density->paths);
     uint32_t *remap = fr_surfaces_compact(density->surfaces);
@@ -162,7 +166,7 @@ static FrStatus query(FrLight *light, const vec3s *points, size_t count, const F
     FrEstimator how = fr_density_estimator(density);
     uint64_t bytes = fr_count_multiply(count, 27 * sizeof(FrCell));
     FrStatus status = fr_limit_check(bytes, context->limits.bytes, "bytes", "the light",
-                                     (FrSpan){0}, context->diags);
+                                     density->params.span, context->diags);
     if (status != FR_OK) {
         return status;
     }
@@ -177,7 +181,10 @@ static FrStatus query(FrLight *light, const vec3s *points, size_t count, const F
         fr_octree_prune(density->tree);
         density->is_pruning = false;
     }
-    fr_octree_fill(density->tree, density->paths, context->pool);
+    status = fr_octree_fill(density->tree, density->paths, context);
+    if (status != FR_OK) {
+        return status;
+    }
     density->point_count += count;
     return how.kind == FR_ESTIMATE_NEAREST
                ? fr_estimate_nearest(density->tree, density->paths, &how, points, count, context,
@@ -231,16 +238,23 @@ FrStatus fr_light_density_new(const FrDensityParams *params, const FrContext *co
     };
     *light = NULL;
     FrStatus status = fr_limit_check((uint64_t)params->photons, context->limits.photons, "photons",
-                                     "the light", (FrSpan){0}, context->diags);
+                                     "the light", params->span, context->diags);
+    if (status == FR_OK) {
+        // Every photon has a ray at least; how many more, only tracing them tells.
+        status = fr_limit_check((uint64_t)params->photons * FR_PHOTON_BYTES, context->limits.bytes,
+                                "bytes", "the light", params->span, context->diags);
+    }
     if (status != FR_OK) {
         return status;
     }
     FrDensity *density = g_new0(FrDensity, 1);
     density->light.backend = &backend;
     fr_params_copy(&density_table, &density->params, params);
+    density->params.span = params->span;
     density->surfaces = fr_surfaces_new(fr_pool_threads(context->pool));
     density->paths =
         fr_paths_new((uint32_t)params->photons, (uint32_t)params->bounces, (uint64_t)params->seed);
+    density->paths->span = params->span;
     density->tree = fr_octree_new();
     *light = &density->light;
     return FR_OK;

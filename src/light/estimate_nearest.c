@@ -151,8 +151,8 @@ static uint8_t first_level(const FrEstimator *how, uint32_t samples) {
 }
 
 // Answers at one level what is to be looked for there or deeper and has no answer yet.
-static void answer_level(Job *job, FrOctree *tree, const uint8_t *levels, size_t count,
-                         const FrContext *context) {
+static FrStatus answer_level(Job *job, FrOctree *tree, const uint8_t *levels, size_t count,
+                             const FrContext *context) {
     uint32_t open_count = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (levels[i] >= job->level && !job->is_answered[i]) {
@@ -164,8 +164,11 @@ static void answer_level(Job *job, FrOctree *tree, const uint8_t *levels, size_t
             }
         }
     }
-    fr_octree_fill(tree, job->paths, context->pool);
-    fr_parallel_for(context->pool, open_count, 16, answer_open, job, context->progress);
+    FrStatus status = fr_octree_fill(tree, job->paths, context);
+    if (status == FR_OK) {
+        fr_parallel_for(context->pool, open_count, 16, answer_open, job, context->progress);
+    }
+    return status;
 }
 
 FrStatus fr_estimate_nearest(FrOctree *tree, const FrPaths *paths, const FrEstimator *how,
@@ -189,13 +192,13 @@ FrStatus fr_estimate_nearest(FrOctree *tree, const FrPaths *paths, const FrEstim
                .open = g_new(uint32_t, count),
                .is_answered = g_new0(bool, count),
                .answers = answers};
-    for (int level = deepest; level >= 0; level--) {
+    for (int level = deepest; level >= 0 && status == FR_OK; level--) {
         job.level = (uint32_t)level;
         job.radius = ldexp(how->distance, (int)how->level - level);
-        answer_level(&job, tree, levels, count, context);
+        status = answer_level(&job, tree, levels, count, context);
     }
     g_free(levels);
     g_free(job.open);
     g_free(job.is_answered);
-    return fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : FR_OK;
+    return fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : status;
 }

@@ -171,9 +171,28 @@ static void sieve_litters(void *data, size_t begin, size_t end, int worker) {
     }
 }
 
+// A segment passes through four octants of a cell, rarely through more.
+enum { MOST_OCTANTS = 4 };
+
+// What the rays and all lists may take once these litters are filled.
+static FrStatus check_bytes(const Sieving *sieving, guint litter_count, const FrContext *context) {
+    uint64_t references = 0;
+    for (guint i = 0; i < litter_count; i++) {
+        const Litter *litter = &sieving->litters[i];
+        uint32_t count = litter->parent == 0 ? sieving->slot_count
+                                             : cell_at(sieving->tree, litter->parent)->rays.count;
+        uint64_t children = (uint64_t)MIN(__builtin_popcount(litter->children), MOST_OCTANTS);
+        references += (count - litter->begin) * children;
+    }
+    uint64_t bytes = fr_paths_bytes(sieving->paths) + fr_octree_bytes(sieving->tree) +
+                     references * sizeof(uint32_t);
+    return fr_limit_check(bytes, context->limits.bytes, "bytes", "the light", sieving->paths->span,
+                          context->diags);
+}
+
 // Level by level, as the list of a cell must be whole before its children are filled from it.
-static void sieve(FrOctree *tree, const FrPaths *paths, const uint32_t *slots, uint32_t slot_count,
-                  const GArray *litters, FrPool *pool) {
+static FrStatus sieve(FrOctree *tree, const FrPaths *paths, const uint32_t *slots,
+                      uint32_t slot_count, const GArray *litters, const FrContext *context) {
     for (guint next = 0, end; next < litters->len; next = end) {
         const Litter *first = &g_array_index(litters, Litter, next);
         for (end = next + 1;
@@ -181,8 +200,13 @@ static void sieve(FrOctree *tree, const FrPaths *paths, const uint32_t *slots, u
             end++;
         }
         Sieving sieving = {tree, paths, first, slots, slot_count};
-        fr_parallel_for(pool, end - next, 1, sieve_litters, &sieving, NULL);
+        FrStatus status = check_bytes(&sieving, end - next, context);
+        if (status != FR_OK) {
+            return status;
+        }
+        fr_parallel_for(context->pool, end - next, 1, sieve_litters, &sieving, NULL);
     }
+    return FR_OK;
 }
 
 static int compare_litters(const void *a, const void *b) {
@@ -193,7 +217,7 @@ static int compare_litters(const void *a, const void *b) {
     return left->parent < right->parent ? -1 : left->parent > right->parent;
 }
 
-void fr_octree_fill(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
+FrStatus fr_octree_fill(FrOctree *tree, const FrPaths *paths, const FrContext *context) {
     GArray *litters = g_array_new(FALSE, FALSE, sizeof(Litter));
     for (guint i = 0; i < tree->unfilled->len; i++) {
         uint32_t index = g_array_index(tree->unfilled, uint32_t, i);
@@ -218,9 +242,12 @@ void fr_octree_fill(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
         }
     }
     g_array_set_size(litters, kept);
-    sieve(tree, paths, NULL, paths->count, litters, pool);
+    FrStatus status = sieve(tree, paths, NULL, paths->count, litters, context);
     g_array_unref(litters);
-    g_array_set_size(tree->unfilled, 0);
+    if (status == FR_OK) {
+        g_array_set_size(tree->unfilled, 0);
+    }
+    return status;
 }
 
 void fr_octree_next_round(FrOctree *tree) {
@@ -288,7 +315,7 @@ static void drop_all_stale(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
 }
 
 // The rays that are new go down from the root; of the other cells' lists they are the end.
-static void add_fresh(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
+static FrStatus add_fresh(FrOctree *tree, const FrPaths *paths, const FrContext *context) {
     GArray *litters = g_array_new(FALSE, FALSE, sizeof(Litter));
     for (guint i = 0; i < tree->cells->len; i++) {
         const FrCell *cell = cell_at(tree, i);
@@ -301,23 +328,26 @@ static void add_fresh(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
         }
     }
     g_array_sort(litters, compare_litters);
-    sieve(tree, paths, (const uint32_t *)(void *)paths->fresh->data, paths->fresh->len, litters,
-          pool);
+    FrStatus status = sieve(tree, paths, (const uint32_t *)(void *)paths->fresh->data,
+                            paths->fresh->len, litters, context);
     g_array_unref(litters);
+    return status;
 }
 
-void fr_octree_update(FrOctree *tree, const FrPaths *paths, FrPool *pool) {
+FrStatus fr_octree_update(FrOctree *tree, const FrPaths *paths, const FrContext *context) {
     if (paths->is_all_new) {
         for (guint i = 1; i < tree->cells->len; i++) {
             if (!cell_at(tree, i)->is_free) {
                 g_array_append_val(tree->unfilled, i);
             }
         }
-        fr_octree_fill(tree, paths, pool);
-    } else if (tree->cells->len > 1 && paths->fresh->len + paths->free_slots->len > 0) {
-        drop_all_stale(tree, paths, pool);
-        add_fresh(tree, paths, pool);
+        return fr_octree_fill(tree, paths, context);
     }
+    if (tree->cells->len > 1 && paths->fresh->len + paths->free_slots->len > 0) {
+        drop_all_stale(tree, paths, context->pool);
+        return add_fresh(tree, paths, context);
+    }
+    return FR_OK;
 }
 
 uint64_t fr_octree_cell_count(const FrOctree *tree) {

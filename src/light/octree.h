@@ -52,14 +52,16 @@ uint32_t fr_octree_find(const FrOctree *tree, uint32_t level, const uint32_t at[
 /// The same, made if need be and kept through this round. Its list is there after
 /// fr_octree_fill().
 uint32_t fr_octree_want(FrOctree *tree, uint32_t level, const uint32_t at[3]);
-/// Makes the lists of new cells, level by level.
-void fr_octree_fill(FrOctree *tree, const FrPaths *paths, FrPool *pool);
+/// Makes the lists of new cells, level by level. FR_ERR_LIMIT if rays and references may take more
+/// than FrLimits.bytes; then cells are still to be filled.
+FR_MUST_USE FrStatus fr_octree_fill(FrOctree *tree, const FrPaths *paths, const FrContext *context);
 /// Begins a round: what is not wanted in it may go.
 void fr_octree_next_round(FrOctree *tree);
 /// Removes the cells that were not wanted in this round.
 void fr_octree_prune(FrOctree *tree);
-/// Follows the changes of the paths since they were settled.
-void fr_octree_update(FrOctree *tree, const FrPaths *paths, FrPool *pool);
+/// Follows the changes of the paths since they were settled. Errors as above.
+FR_MUST_USE FrStatus fr_octree_update(FrOctree *tree, const FrPaths *paths,
+                                      const FrContext *context);
 uint64_t fr_octree_cell_count(const FrOctree *tree);
 uint64_t fr_octree_reference_count(const FrOctree *tree);
 uint64_t fr_octree_bytes(const FrOctree *tree);

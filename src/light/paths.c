@@ -118,7 +118,7 @@ static FrStatus reserve(FrPaths *paths, uint64_t more, const FrContext *context)
     uint64_t capacity = MAX(wanted, paths->capacity + paths->capacity / 2ull);
     uint64_t most = MIN(context->limits.bytes / sizeof(FrRay), FR_NONE - 1ull);
     FrStatus status = fr_limit_check(wanted * sizeof(FrRay), most * sizeof(FrRay), "bytes",
-                                     "the light", (FrSpan){0}, context->diags);
+                                     "the light", paths->span, context->diags);
     if (status != FR_OK) {
         return status;
     }

@@ -34,7 +34,11 @@ typedef struct FrPaths {
     bool is_all_new;    ///< everything was traced anew since then; `fresh` is empty
     uint64_t *met;      ///< how often each side of a triangle was met: front, back, front, …
     uint64_t met_count;
+    FrSpan span; ///< where a document asks for them
 } FrPaths;
+
+/// What a photon takes at least.
+#define FR_PHOTON_BYTES (sizeof(FrRay) + sizeof(uint32_t))
 
 FrPaths *fr_paths_new(uint32_t photons, uint32_t most_bounces, uint64_t seed);
 void fr_paths_free(FrPaths *paths);

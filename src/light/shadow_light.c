@@ -22,6 +22,7 @@ typedef struct ShadowLight {
     FrLight light;
     FrShadowLightSettings settings;
     FrShadows *shadows;
+    bool is_dark; ///< neither sun nor sky shines
 } ShadowLight;
 
 FrShadowLightSettings fr_shadow_light_default(void) {
@@ -164,15 +165,32 @@ static GArray *casting_points(const FrShadowSettings *grid, const uint32_t *area
     return points;
 }
 
+static bool has_daylight(const FrLightScene *scene) {
+    for (uint32_t i = 0; i < scene->lamp_count; i++) {
+        const FrLamp *lamp = &scene->lamps[i];
+        if ((lamp->kind == FR_LAMP_SUN || lamp->kind == FR_LAMP_SKY) && lamp->power > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static FrStatus set_scene(FrLight *base, const FrLightScene *scene, const FrContext *context) {
     ShadowLight *light = (ShadowLight *)base;
     fr_shadows_free(light->shadows);
+    light->shadows = NULL;
+    light->is_dark = !has_daylight(scene);
     FrShadowSettings grid = grid_of(light, scene);
-    FrStatus status = fr_shadows_new(&grid, context, &light->shadows);
+    size_t count = (size_t)grid.cells[0] * (size_t)grid.cells[1] * (size_t)grid.cells[2];
+    FrStatus status =
+        fr_limit_check(fr_count_multiply(count, 2 * sizeof(uint32_t)), context->limits.bytes,
+                       "bytes", "the light", light->settings.span, context->diags);
+    if (status == FR_OK) {
+        status = fr_shadows_new(&grid, context, &light->shadows);
+    }
     if (status != FR_OK) {
         return status;
     }
-    size_t count = (size_t)grid.cells[0] * (size_t)grid.cells[1] * (size_t)grid.cells[2];
     Cover cover = {&grid, g_new0(uint32_t, count)};
     for_each_triangle(scene, cover_triangle, &cover);
     GArray *points = casting_points(&grid, cover.area);
@@ -189,11 +207,13 @@ static FrStatus query(FrLight *base, const vec3s *points, size_t count, const Fr
     (void)context;
     for (size_t i = 0; i < count; i++) {
         FrShadowSample sample = fr_shadows_at(light->shadows, points[i], SLOPE_RADIUS);
-        bool is_even = !(sample.slope > 0);
         answers[i] = (FrLightAnswer){.intensity = sample.light,
                                      .direction = sample.direction,
-                                     .confidence = is_even ? 1 : fminf(sample.slope * 4, 1),
+                                     .confidence = fminf(sample.slope * 4, 1),
                                      .samples = 1};
+        if (light->is_dark) {
+            answers[i] = (FrLightAnswer){.samples = 1};
+        }
     }
     return FR_OK;
 }

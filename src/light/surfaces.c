@@ -272,8 +272,8 @@ static void set_stands(FrSurfaces *surfaces, const FrLightScene *scene) {
     fr_key_table_clear(&index);
 }
 
-FrStatus fr_surfaces_set(FrSurfaces *surfaces, const FrLightScene *scene, const FrContext *context,
-                         uint32_t *added, uint32_t *removed) {
+FrStatus fr_surfaces_set(FrSurfaces *surfaces, const FrLightScene *scene, FrSpan span,
+                         const FrContext *context, uint32_t *added, uint32_t *removed) {
     uint64_t triangles = 0;
     for (uint32_t i = 0; i < scene->stand_count; i++) {
         triangles =
@@ -283,12 +283,12 @@ FrStatus fr_surfaces_set(FrSurfaces *surfaces, const FrLightScene *scene, const 
     enum { TRIANGLE_BYTES = 200 };
     FrStatus status =
         fr_limit_check(fr_count_multiply(triangles, TRIANGLE_BYTES), context->limits.bytes, "bytes",
-                       "the light", (FrSpan){0}, context->diags);
+                       "the light", span, context->diags);
     if (status != FR_OK) {
         return status;
     }
     status = fr_limit_check(triangles, MIN(context->limits.triangles, 1u << 30), "triangles",
-                            "the light", (FrSpan){0}, context->diags);
+                            "the light", span, context->diags);
     if (status != FR_OK) {
         return status;
     }

@@ -16,8 +16,8 @@ typedef struct FrSurfaces FrSurfaces;
 FrSurfaces *fr_surfaces_new(int threads);
 void fr_surfaces_free(FrSurfaces *surfaces);
 /// Makes the soup hold what the scene has. `*added` and `*removed` count the difference; what was
-/// added is the soup's last batch. FR_ERR_LIMIT before anything has changed.
-FR_MUST_USE FrStatus fr_surfaces_set(FrSurfaces *surfaces, const FrLightScene *scene,
+/// added is the soup's last batch. FR_ERR_LIMIT, said at `span`, before anything has changed.
+FR_MUST_USE FrStatus fr_surfaces_set(FrSurfaces *surfaces, const FrLightScene *scene, FrSpan span,
                                      const FrContext *context, uint32_t *added, uint32_t *removed);
 const FrSoup *fr_surfaces_soup(const FrSurfaces *surfaces);
 /// What happens to light on that side of a triangle.

@@ -23,6 +23,7 @@ struct FrGrowing {
     uint64_t queries; ///< answered in this step
     FrEnvironment environment;
     const Sprout *asking;
+    FrGrowingWatch watch;
 };
 
 bool fr_growing_is_wanted(const FrScene *scene, const FrPlantDef *definition) {
@@ -103,9 +104,10 @@ static FrStatus answer(void *data, const FrLquery *queries, size_t count,
     return status;
 }
 
-FrGrowing *fr_growing_new(uint64_t steps) {
+FrGrowing *fr_growing_new(uint64_t steps, FrGrowingWatch watch) {
     FrGrowing *growing = g_new0(FrGrowing, 1);
     growing->steps = steps;
+    growing->watch = watch;
     growing->sprouts = g_ptr_array_new_with_free_func(free_sprout);
     growing->environment = (FrEnvironment){growing, answer};
     return growing;
@@ -208,6 +210,18 @@ static void note_step(FrGrowing *growing, FrScene *scene, double began, double l
     g_array_append_val(scene->steps, step);
 }
 
+/// Shows the first sprout of the definition that is watched.
+static FrStatus show(const FrGrowing *growing, bool is_answered) {
+    const FrGrowingWatch *watch = &growing->watch;
+    for (guint i = 0; watch->see != NULL && i < growing->sprouts->len; i++) {
+        const Sprout *sprout = g_ptr_array_index(growing->sprouts, i);
+        if (sprout->definition == watch->definition) {
+            return watch->see(watch->user, sprout->derivation, is_answered);
+        }
+    }
+    return FR_OK;
+}
+
 /// One time around the loop.
 static FrStatus grow_step(FrGrowing *growing, FrScene *scene, const FrContext *context) {
     double began = (double)g_get_monotonic_time() * 1e-6;
@@ -219,8 +233,14 @@ static FrStatus grow_step(FrGrowing *growing, FrScene *scene, const FrContext *c
         status = fr_lighting_update(growing->lighting, scene, context);
     }
     if (status == FR_OK) {
+        status = show(growing, false);
+    }
+    if (status == FR_OK) {
         status = ask_all(growing, context);
         fr_lighting_forget(growing->lighting);
+    }
+    if (status == FR_OK) {
+        status = show(growing, true);
     }
     double light = (double)g_get_monotonic_time() * 1e-6 - drawn;
     // Until here the light has compared the old plants with the new ones.
@@ -260,7 +280,7 @@ static FrStatus finish(FrGrowing *growing, FrScene *scene, const FrContext *cont
         plant->by_component = fr_scene_count_made(plant->plant);
     }
     scene->light = fr_lighting_stats(growing->lighting);
-    return status;
+    return status == FR_OK ? show(growing, false) : status;
 }
 
 FrStatus fr_growing_run(FrGrowing *growing, FrScene *scene, const FrContext *context) {

@@ -8,8 +8,17 @@ typedef struct FrGrowing FrGrowing;
 
 /// True for what answers light: an L-system with open symbols in a scene that has a `<light>`.
 bool fr_growing_is_wanted(const FrScene *scene, const FrPlantDef *definition);
+/// Who looks on while plants grow: `see` is shown the first plant of a definition in each step, as
+/// it was derived and again as the light has answered it, and at last as it stands in the end.
+/// NULL: nobody.
+typedef struct FrGrowingWatch {
+    const FrPlantDef *definition;
+    FrDerivedFn see;
+    void *user;
+} FrGrowingWatch;
+
 /// Plants that grow at most `steps` steps.
-FrGrowing *fr_growing_new(uint64_t steps);
+FrGrowing *fr_growing_new(uint64_t steps, FrGrowingWatch watch);
 void fr_growing_free(FrGrowing *growing);
 /// A plant that begins where `stand` is; it becomes the last of the scene's plants, empty as yet.
 /// `seed` < 0: what its text says.

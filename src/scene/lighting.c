@@ -99,6 +99,7 @@ static FrLight *new_views(const FrLightParams *params) {
 static FrLight *new_shadows(const FrLightParams *params) {
     FrShadowLightSettings settings = fr_shadow_light_default();
     settings.cell = params->cell;
+    settings.span = params->span;
     return fr_shadow_light_new(&settings);
 }
 
@@ -112,7 +113,8 @@ static FrStatus new_light(const FrLightParams *params, const FrContext *context,
                                .estimator = params->estimator,
                                .neighbours = params->neighbours,
                                .bounces = params->bounces,
-                               .seed = params->seed};
+                               .seed = params->seed,
+                               .span = params->photons_place};
     return fr_light_density_new(&density, context, light);
 }
 
@@ -212,7 +214,7 @@ static FrStatus set_scene(FrLighting *lighting, const FrScene *scene, const GArr
                         .max = lighting->max,
                         .has_reference = lighting->params->relative,
                         .reference = lighting->params->reference,
-                        .span = lighting->params->span};
+                        .span = lighting->params->reference_place};
     for (guint i = 0; i < meshed->len; i++) {
         const Meshed *from = &g_array_index(meshed, Meshed, i);
         mesh_of[i] = from->mesh == NULL ? FR_NONE : lit.mesh_count;

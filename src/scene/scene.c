@@ -24,6 +24,7 @@ typedef struct Build {
     FrSampled *sampled;
     FrHills *hills;         ///< NULL: the ground is level
     GPtrArray *definitions; ///< FrPlantDef *, by plant of the scene
+    bool is_check;          ///< nothing is sampled or grown
 } Build;
 
 static void clear_plant(void *data) {
@@ -189,7 +190,7 @@ static FrStatus add_stand(Build *build, const FrPlantDef *definition, int64_t ow
         return fr_growing_add(build->growing, build->scene, definition, seed, stand,
                               build->context);
     }
-    if (fr_sampled_is_wanted(build->scene, definition)) {
+    if (!build->is_check && fr_sampled_is_wanted(build->scene, definition)) {
         fr_sampled_add(build->sampled, build->scene, definition, seed_of(build, own_seed),
                        build->time, stand);
         return FR_OK;
@@ -319,49 +320,75 @@ static void forget_built(const Build *build) {
     }
 }
 
-static FrStatus build_scene(const FrDocument *document, int64_t seed, double time,
-                            const FrContext *context, FrSceneParts *parts, FrScene **scene) {
+/// Builds what is set up in `build`; *scene is NULL unless FR_OK.
+static FrStatus run_build(Build *build, FrScene **scene) {
+    const FrContext *context = build->context;
     *scene = NULL;
-    Build build = {.document = document,
-                   .context = context,
-                   .scene = new_scene(document, seed),
-                   .built = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
-                   .varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied),
-                   .seed = seed,
-                   .time = time,
-                   .growing = fr_growing_new(steps_at(document, time)),
-                   .parts = parts,
-                   .sampled = fr_sampled_new(),
-                   .definitions = g_ptr_array_new()};
-    FrStatus status = fr_hills_new(build.scene->surroundings->terrain, context, &build.hills);
+    build->scene = new_scene(build->document, build->seed);
+    build->built = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+    build->varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied);
+    build->sampled = fr_sampled_new();
+    build->definitions = g_ptr_array_new();
+    FrStatus status = fr_hills_new(build->scene->surroundings->terrain, context, &build->hills);
     if (status == FR_OK) {
-        status = build_places(&build);
+        status = build_places(build);
     }
     if (status == FR_OK) {
-        status = build_obstacles(&build);
+        status = build_obstacles(build);
     }
     if (status == FR_OK) {
-        status = fr_sampled_build(build.sampled, document, build.scene, context);
+        status = fr_sampled_build(build->sampled, build->document, build->scene, context);
     }
     if (status == FR_OK) {
-        status = fr_growing_run(build.growing, build.scene, context);
+        status = fr_growing_run(build->growing, build->scene, context);
     }
     if (status == FR_OK) {
-        set_surfaces(&build);
+        set_surfaces(build);
     }
-    g_ptr_array_unref(build.definitions);
-    fr_hills_free(build.hills);
-    fr_growing_free(build.growing);
-    fr_sampled_free(build.sampled);
-    g_hash_table_unref(build.built);
-    g_hash_table_unref(build.varied);
+    g_ptr_array_unref(build->definitions);
+    fr_hills_free(build->hills);
+    fr_growing_free(build->growing);
+    fr_sampled_free(build->sampled);
+    g_hash_table_unref(build->built);
+    g_hash_table_unref(build->varied);
     if (status != FR_OK) {
-        forget_built(&build);
-        fr_scene_free(build.scene);
+        forget_built(build);
+        fr_scene_free(build->scene);
         return status;
     }
-    *scene = build.scene;
+    *scene = build->scene;
     return FR_OK;
+}
+
+static FrStatus build_scene(const FrDocument *document, int64_t seed, double time,
+                            const FrContext *context, FrSceneParts *parts, FrScene **scene) {
+    FrGrowing *growing = fr_growing_new(steps_at(document, time), (FrGrowingWatch){.see = NULL});
+    Build build = {document,           context,       .seed = seed, .time = time,
+                   .growing = growing, .parts = parts};
+    return run_build(&build, scene);
+}
+
+FrStatus fr_scene_check(const FrDocument *document, int64_t seed, const FrContext *context,
+                        FrScene **scene) {
+    FrGrowing *growing = fr_growing_new(0, (FrGrowingWatch){.see = NULL});
+    Build build = {document, context, .seed = seed, .time = NAN, .growing = growing};
+    build.is_check = true;
+    return run_build(&build, scene);
+}
+
+bool fr_scene_is_lit(const FrDocument *document, const FrPlantDef *definition) {
+    FrScene scene = {.surroundings = fr_document_surroundings(document)};
+    return fr_growing_is_wanted(&scene, definition);
+}
+
+FrStatus fr_scene_derive(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
+                         const FrContext *context, FrDerivedFn see, void *user) {
+    FrGrowing *growing = fr_growing_new(UINT64_MAX, (FrGrowingWatch){definition, see, user});
+    Build build = {document, context, .seed = seed, .time = NAN, .growing = growing};
+    FrScene *scene;
+    FrStatus status = run_build(&build, &scene);
+    fr_scene_free(scene);
+    return status;
 }
 
 FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContext *context,

@@ -62,10 +62,59 @@ static void test_wrong(void) {
     forget(&parsed);
 }
 
+/// Lamps and obstacles can be set by their ids, or by what they are and their numbers.
+static void test_set(void) {
+    static const char text[] =
+        SCENE("<lamp id='desk' power='1'/><lamp power='2'/><lamp power='3'/><obstacle size='1'/>");
+    static const struct {
+        const char *path;
+        guint lamp;
+    } rows[] = {{"desk.power", 0}, {"lamp-2.power", 1}, {"lamp-3.power", 2}};
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        Parsed parsed = parse(text);
+        FrContext context = fr_context_default();
+        context.diags = parsed.diags;
+        g_assert_cmpint(fr_document_set(parsed.document, rows[i].path, "7", &context), ==, FR_OK);
+        g_assert_cmpint(fr_document_set(parsed.document, "obstacle.size", "4", &context), ==,
+                        FR_OK);
+        const FrSurroundings *around = fr_document_surroundings(parsed.document);
+        const FrObstacle *obstacle = g_ptr_array_index(around->obstacles, 0);
+        g_assert_cmpfloat(obstacle->size.x, ==, 4);
+        for (guint lamp = 0; lamp < 3; lamp++) {
+            double power = ((const FrLampParams *)g_ptr_array_index(around->lamps, lamp))->power;
+            g_assert_cmpfloat(power, ==, lamp == rows[i].lamp ? 7 : lamp + 1.0);
+        }
+        g_assert_cmpint(fr_document_set(parsed.document, "lamp.power", "4", &context), ==,
+                        FR_ERR_USAGE);
+        g_assert_nonnull(
+            strstr(fr_diags_get(parsed.diags, 0)->text, "nothing is called 'lamp'; did you mean"));
+        forget(&parsed);
+    }
+    assert_wrong(SCENE("<lamp id='a.b'/>"), "bad-id");
+    assert_wrong(SCENE("<obstacle id='9'/>"), "bad-id");
+}
+
+/// Shadow voxels do not see lamps.
+static void test_unseen(void) {
+    Parsed parsed = parse(SCENE("<light by='shadows'/><lamp/><lamp power='0'/>"));
+    g_assert_cmpint(parsed.status, ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(parsed.diags), ==, 1);
+    const FrDiag *diag = fr_diags_get(parsed.diags, 0);
+    g_assert_cmpstr(diag->code, ==, "unseen-lamp");
+    g_assert_cmpint(diag->severity, ==, FR_WARNING);
+    g_assert_cmpuint(diag->span.end - diag->span.begin, ==, strlen("lamp"));
+    forget(&parsed);
+    parsed = parse(SCENE("<light by='views'/><lamp/>"));
+    g_assert_cmpuint(fr_diags_count(parsed.diags), ==, 0);
+    forget(&parsed);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/document/surroundings/obstacles and lamps are read", test_read);
     g_test_add_func("/document/surroundings/the sun stands where the date puts it", test_sun);
+    g_test_add_func("/document/surroundings/lamps and obstacles have paths to be set by", test_set);
+    g_test_add_func("/document/surroundings/who senses shadows is told of lamps", test_unseen);
     g_test_add_func("/document/surroundings/what is wrong has its code", test_wrong);
     return g_test_run();
 }

@@ -64,9 +64,96 @@ static void test_materials(void) {
     }
 }
 
+// A growing plant that needs light; what it derives from is checked, but it does not grow.
+#define GROWING                                                                                    \
+    "<frond version='1'>\n<plant id='p'><lsystem><![CDATA[\n"                                      \
+    "Lsystem: 1\nderivation length: 3\naxiom: A\nA --> I(?)F(1)A\nendlsystem\n"                    \
+    "]]></lsystem></plant>\n<scene ground='no'>"                                                   \
+    "<light by='density' photons='5000' relative='yes' reference='0, 0, 3'/>"                      \
+    "<place plant='p'/><place plant='p' at='1, 0, 0'/></scene></frond>"
+
+static void test_limits(void) {
+    static const struct {
+        const char *limit, *value, *place;
+    } rows[] = {{"photons", "4999", "5000'"}, {"bytes", "200000", "5000'"}};
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        FrContext context = fr_context_default();
+        FrStatus set = fr_limits_set(&context.limits, rows[i].limit, rows[i].value, NULL);
+        g_assert_cmpint(set, ==, FR_OK);
+        Built built = build_with(GROWING, -1, context);
+        g_assert_cmpint(built.status, ==, FR_ERR_LIMIT);
+        const FrDiag *diag = fr_diags_get(built.diags, 0);
+        char *code = g_strconcat("limit-", rows[i].limit, NULL);
+        g_assert_cmpstr(diag->code, ==, code);
+        g_assert_true(g_str_has_prefix(GROWING + diag->span.begin, rows[i].place));
+        g_free(code);
+        forget(&built);
+    }
+}
+
+static void test_check(void) {
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    FrSource *source = fr_source_new("wood.frond", GROWING, strlen(GROWING));
+    FrDocument *document;
+    g_assert_cmpint(fr_document_parse(source, NULL, &context, &document), ==, FR_OK);
+    // Dark at the reference, which only growing would find.
+    FrStatus status = fr_document_set(document, "light.reference", "0, 0, -5000", &context);
+    g_assert_cmpint(status, ==, FR_OK);
+    FrScene *scene;
+    g_assert_cmpint(fr_scene_check(document, -1, &context, &scene), ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(context.diags), ==, 0);
+    g_assert_cmpuint(scene->plants->len, ==, 2);
+    g_assert_cmpuint(scene->steps->len, ==, 0);
+    fr_scene_free(scene);
+    context.limits.photons = 10;
+    g_assert_cmpint(fr_scene_check(document, -1, &context, &scene), ==, FR_ERR_LIMIT);
+    g_assert_null(scene);
+    fr_document_free(document);
+    fr_source_unref(source);
+    fr_diags_free(context.diags);
+}
+
+/// Notes the strings it is shown.
+static FrStatus note_string(void *user, FrLderivation *derivation, bool is_answered) {
+    GString *text = user;
+    g_string_append_printf(text, "%d%s ", (int)fr_lderivation_step(derivation),
+                           is_answered ? "'" : "");
+    fr_lstring_print(fr_lderivation_string(derivation), text);
+    g_string_append_c(text, '\n');
+    return FR_OK;
+}
+
+/// The last string is that of the plant that the scene builds.
+static void test_derive(void) {
+    FrContext context = fr_context_default();
+    Built built = build(GROWING, -1);
+    g_assert_cmpint(built.status, ==, FR_OK);
+    const FrPlantDef *definition = g_ptr_array_index(fr_document_plants(built.document), 0);
+    g_assert_true(fr_scene_is_lit(built.document, definition));
+    GString *text = g_string_new(NULL);
+    FrStatus status = fr_scene_derive(built.document, definition, -1, &context, note_string, text);
+    g_assert_cmpint(status, ==, FR_OK);
+    char **lines = g_strsplit(text->str, "\n", -1);
+    g_assert_cmpuint(g_strv_length(lines), ==, 8);
+    g_assert_cmpstr(lines[0], ==, "0 A");
+    g_assert_cmpstr(lines[1], ==, "0' A");
+    g_assert_cmpstr(lines[2], ==, "1 I(?)F(1)A");
+    g_assert_true(g_str_has_prefix(lines[3], "1' I(0.") || g_str_has_prefix(lines[3], "1' I(1"));
+    g_assert_true(g_str_has_suffix(lines[6], "I(?)F(1)A"));
+    g_assert_cmpuint(plant_at(&built, 0)->plant->nodes.count, ==, 3);
+    g_assert_cmpuint(plant_at(&built, 0)->by_component[0], ==, 3);
+    g_strfreev(lines);
+    g_string_free(text, TRUE);
+    forget(&built);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/scene/lighting/light goes through panes and comes back from mirrors",
                     test_materials);
+    g_test_add_func("/scene/lighting/too much light is refused at its place", test_limits);
+    g_test_add_func("/scene/lighting/a check does not grow anything", test_check);
+    g_test_add_func("/scene/lighting/an L-system is shown as it grows in the light", test_derive);
     return g_test_run();
 }
