@@ -7,6 +7,7 @@
 #pragma once
 
 #include "frond/context.h"
+#include "frond/ecosystem.h"
 #include "frond/lsystem_model.h"
 #include "frond/material.h"
 #include "frond/nurbs_skin.h"
@@ -41,7 +42,8 @@ typedef enum FrPlantKind {
     FR_PLANT_PGRAPH,
     FR_PLANT_LSYSTEM,
     FR_PLANT_SKELETON,
-    FR_PLANT_VARIED, ///< another plant of the document, varied
+    FR_PLANT_VARIED,  ///< another plant of the document, varied
+    FR_PLANT_SPECIES, ///< grows bud by bud among the others of its scene
 } FrPlantKind;
 
 /// A `<slider>` of a plant: one handle for many of its numbers.
@@ -72,6 +74,7 @@ typedef struct FrPlantDef {
     FrPgraph *pgraph;        ///< for FR_PLANT_PGRAPH, else empty
     FrLmodel *lsystem;       ///< for FR_PLANT_LSYSTEM, else NULL
     FrSkeleton *skeleton;    ///< for FR_PLANT_SKELETON, else NULL
+    FrSpeciesDef *species;   ///< for FR_PLANT_SPECIES, else NULL
     FrVary *vary;   ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
     bool has_nurbs; ///< it has a `<nurbs>`: it is shown as rational surfaces …
     FrNurbsParams nurbs; ///< … with these settings, else with the usual ones
@@ -153,6 +156,7 @@ FR_API const GPtrArray *fr_document_strews(const FrDocument *document);
 FR_API const GPtrArray *fr_document_views(const FrDocument *document);
 FR_API const GPtrArray *fr_document_materials(const FrDocument *document);
 FR_API const FrSceneParams *fr_document_scene(const FrDocument *document);
+FR_API const FrGrowthDef *fr_document_growth(const FrDocument *document);
 FR_API const FrSurroundings *fr_document_surroundings(const FrDocument *document);
 
 // ---- conversion -------------------------------------------------------------------------------

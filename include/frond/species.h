@@ -84,6 +84,8 @@
     /* space */                                                                                    \
     X(POINTS, envelope, "", 0, 1000000, "m", "",                                                   \
       "radius,height … of the outline that it grows within; empty: unbounded")                     \
+    X(TEXT, envelope_file, "", 0, 0, "", "",                                                       \
+      "closed mesh to grow within instead, about the seed: .obj .stl .gltf .glb")                  \
     X(SWITCH, collide, "yes", 0, 1, "", "", "keeps off what is in the way and other branches")     \
     X(INTEGER, box, "3", 1, 9, "", "", "cells of free space around a new tip: odd")                \
     X(INTEGER, trials, "4", 1, 32, "", "", "directions that a bud tries before it gives up")       \

@@ -10,6 +10,7 @@ static void free_plant(void *data) {
     fr_number_clear(&plant->season);
     fr_number_clear(&plant->health);
     fr_skeleton_free(plant->skeleton);
+    fr_species_def_free(plant->species);
     fr_vary_free(plant->vary);
     g_ptr_array_unref(plant->sliders);
     g_free(plant->id);
@@ -44,6 +45,7 @@ static FrDocument *new_document(FrXmlTree *tree, const char *folder) {
     document->scope = fr_scope_new();
     fr_params_init(fr_scene_table(), &document->scene);
     fr_surroundings_init(&document->surroundings);
+    fr_growth_def_init(&document->growth);
     return document;
 }
 
@@ -59,6 +61,7 @@ void fr_document_free(FrDocument *document) {
     g_ptr_array_unref(document->materials);
     fr_params_clear(fr_scene_table(), &document->scene);
     fr_surroundings_clear(&document->surroundings);
+    fr_growth_def_clear(&document->growth);
     fr_scope_free(document->scope);
     fr_xml_free(document->tree);
     g_free(document->folder);
@@ -194,4 +197,8 @@ const FrSceneParams *fr_document_scene(const FrDocument *document) {
 
 const FrSurroundings *fr_document_surroundings(const FrDocument *document) {
     return &document->surroundings;
+}
+
+const FrGrowthDef *fr_document_growth(const FrDocument *document) {
+    return &document->growth;
 }

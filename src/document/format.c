@@ -89,7 +89,8 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                           .table = &plant_table,
                           .has_id = true,
                           .children = SET(SLIDER) | SET(PGRAPH) | SET(EDITS) | SET(LSYSTEM) |
-                                      SET(SKELETON) | SET(NURBS) | SET(VARY)},
+                                      SET(SKELETON) | SET(SPECIES) | SET(NURBS) |
+                                      SET(VARY)},
     [FR_ELEMENT_SLIDER] = {.name = "slider", .table = &slider_table, .has_id = true},
     [FR_ELEMENT_PGRAPH] = {.name = "pgraph",
                            .meaning = "linked components that are expanded to a plant "
@@ -112,6 +113,11 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
     [FR_ELEMENT_EDIT] = {.name = "edit", .required = "at"},
     [FR_ELEMENT_SKELETON] = {.name = "skeleton", .is_once = true, .has_text = true},
     [FR_ELEMENT_NURBS] = {.name = "nurbs", .is_once = true},
+    [FR_ELEMENT_SPECIES] = {.name = "species",
+                            .is_once = true,
+                            .children = SET(ORDER) | SET(SLIDERS)},
+    [FR_ELEMENT_ORDER] = {.name = "order"},
+    [FR_ELEMENT_SLIDERS] = {.name = "sliders", .is_once = true},
     [FR_ELEMENT_VARY] = {.name = "vary",
                          .is_once = true,
                          .required = "base",
@@ -128,12 +134,41 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
     [FR_ELEMENT_ROW] = {.name = "row", .required = "plants", .has_text = true},
     [FR_ELEMENT_STREW] = {.name = "strew", .required = "plants"},
     [FR_ELEMENT_VIEW] = {.name = "view", .table = &view_table, .required = "name"},
+    [FR_ELEMENT_GROWTH] = {.name = "growth", .is_once = true, .children = SET(PARTICLES)},
+    [FR_ELEMENT_PARTICLES] = {.name = "particles", .has_text = true},
     [FR_ELEMENT_OBSTACLE] = {.name = "obstacle", .has_text = true},
     [FR_ELEMENT_TERRAIN] = {.name = "terrain", .is_once = true, .required = "file"},
     [FR_ELEMENT_LAMP] = {.name = "lamp"},
     [FR_ELEMENT_SUN] = {.name = "sun", .is_once = true},
     [FR_ELEMENT_LIGHT] = {.name = "light", .is_once = true},
 };
+
+/// Attributes that are declared where they are used; NULL: none are.
+static const FrParamTable *table_elsewhere(FrElementId id) {
+    static const FrParamTable *(*const tables[FR_ELEMENT_COMPONENT])(void) = {
+        [FR_ELEMENT_MATERIAL] = fr_material_table,
+        [FR_ELEMENT_LSYSTEM] = fr_lsystem_table,
+        [FR_ELEMENT_EDIT] = fr_edit_table,
+        [FR_ELEMENT_SKELETON] = fr_skeleton_table,
+        [FR_ELEMENT_NURBS] = fr_nurbs_table,
+        [FR_ELEMENT_SPECIES] = fr_species_table,
+        [FR_ELEMENT_ORDER] = fr_order_table,
+        [FR_ELEMENT_SLIDERS] = fr_species_sliders_table,
+        [FR_ELEMENT_VARY] = fr_vary_table,
+        [FR_ELEMENT_STROKE] = fr_stroke_table,
+        [FR_ELEMENT_INDICATOR] = fr_indicator_table,
+        [FR_ELEMENT_ROW] = fr_row_table,
+        [FR_ELEMENT_STREW] = fr_strew_table,
+        [FR_ELEMENT_GROWTH] = fr_growth_table,
+        [FR_ELEMENT_PARTICLES] = fr_particles_table,
+        [FR_ELEMENT_OBSTACLE] = fr_obstacle_table,
+        [FR_ELEMENT_TERRAIN] = fr_terrain_table,
+        [FR_ELEMENT_LAMP] = fr_lamp_table,
+        [FR_ELEMENT_SUN] = fr_sun_table,
+        [FR_ELEMENT_LIGHT] = fr_light_table,
+    };
+    return tables[id] == NULL ? NULL : tables[id]();
+}
 
 FrElement fr_element(FrElementId id) {
     FrElement element = {.has_id = true};
@@ -144,30 +179,8 @@ FrElement fr_element(FrElementId id) {
         element.name = element.table->element;
         element.children = id == FR_ELEMENT_COMPONENT + FR_COMPONENT_GRAFT ? SET(DEFINE) : 0;
     }
-    if (id == FR_ELEMENT_MATERIAL) {
-        element.table = fr_material_table();
-    } else if (id == FR_ELEMENT_LSYSTEM) {
-        element.table = fr_lsystem_table();
-    } else if (id == FR_ELEMENT_EDIT) {
-        element.table = fr_edit_table();
-    } else if (id == FR_ELEMENT_SKELETON) {
-        element.table = fr_skeleton_table();
-    } else if (id == FR_ELEMENT_NURBS) {
-        element.table = fr_nurbs_table();
-    } else if (id == FR_ELEMENT_VARY) {
-        element.table = fr_vary_table();
-    } else if (id == FR_ELEMENT_STROKE) {
-        element.table = fr_stroke_table();
-    } else if (id == FR_ELEMENT_INDICATOR) {
-        element.table = fr_indicator_table();
-    } else if (id == FR_ELEMENT_ROW) {
-        element.table = fr_row_table();
-    } else if (id == FR_ELEMENT_STREW) {
-        element.table = fr_strew_table();
-    } else if (id >= FR_ELEMENT_OBSTACLE && id <= FR_ELEMENT_LIGHT) {
-        const FrParamTable *tables[] = {fr_obstacle_table(), fr_terrain_table(), fr_lamp_table(),
-                                        fr_sun_table(), fr_light_table()};
-        element.table = tables[id - FR_ELEMENT_OBSTACLE];
+    if (element.table == NULL && id < FR_ELEMENT_COMPONENT) {
+        element.table = table_elsewhere(id);
     }
     if (element.meaning == NULL) {
         element.meaning = element.table->meaning;

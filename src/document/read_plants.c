@@ -11,6 +11,7 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
     } engines[] = {{FR_ELEMENT_PGRAPH, FR_PLANT_PGRAPH},
                    {FR_ELEMENT_LSYSTEM, FR_PLANT_LSYSTEM},
                    {FR_ELEMENT_SKELETON, FR_PLANT_SKELETON},
+                   {FR_ELEMENT_SPECIES, FR_PLANT_SPECIES},
                    {FR_ELEMENT_VARY, FR_PLANT_VARIED}};
     uint32_t definition = FR_NONE;
     const char *first = NULL;
@@ -32,7 +33,8 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
     }
     if (definition == FR_NONE) {
         fr_read_error(reader, "missing-element", reader->tree->nodes[node].name,
-                      "the plant '%s' has no <pgraph>, <lsystem>, <skeleton> or <vary>", plant->id);
+                      "the plant '%s' has no <pgraph>, <lsystem>, <skeleton>, <species> or <vary>",
+                      plant->id);
     } else if (plant->kind == FR_PLANT_VARIED) {
         if (plant->sliders->len > 0) {
             fr_read_error(reader, "misplaced-element", reader->tree->nodes[definition].name,
@@ -43,6 +45,8 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
         plant->lsystem = fr_read_lsystem(reader, definition);
     } else if (plant->kind == FR_PLANT_SKELETON) {
         plant->skeleton = fr_read_skeleton(reader, definition);
+    } else if (plant->kind == FR_PLANT_SPECIES) {
+        plant->species = fr_read_species(reader, definition);
     } else {
         fr_read_pgraph(reader, definition, plant->pgraph);
         fr_read_check_sliders(reader, node, plant->pgraph);

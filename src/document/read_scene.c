@@ -21,6 +21,7 @@ void fr_read_scenes(FrReader *reader, uint32_t parent) {
     fr_read_check_children(reader, scene, FR_ELEMENT_SCENE);
     fr_read_attributes(reader, scene, FR_ELEMENT_SCENE, &reader->document->scene);
     fr_read_placing(reader, scene);
+    fr_read_growth(reader, scene);
     fr_read_surroundings(reader, scene);
     GHashTable *names = g_hash_table_new(g_str_hash, g_str_equal);
     for (uint32_t node = fr_read_first(reader, scene, FR_ELEMENT_VIEW); node != FR_NONE;

@@ -25,17 +25,6 @@ static void read_obstacle_mesh(FrReader *reader, uint32_t node, FrObstacle *obst
     fr_read_note(reader, status);
 }
 
-/// Only what is drawn along a line has a text.
-static void check_no_line(FrReader *reader, uint32_t node) {
-    FrXmlRange place;
-    char *text = fr_read_text(reader, node, &place);
-    if (*g_strstrip(text) != '\0') {
-        fr_read_error(reader, "unexpected-text", place,
-                      "only an <obstacle> with shape='sweep' has a text");
-    }
-    g_free(text);
-}
-
 static void read_obstacle(FrReader *reader, uint32_t node) {
     fr_read_check_children(reader, node, FR_ELEMENT_OBSTACLE);
     FrObstacle *obstacle = g_new0(FrObstacle, 1);
@@ -50,7 +39,7 @@ static void read_obstacle(FrReader *reader, uint32_t node) {
     if (obstacle->shape == FR_OBSTACLE_SWEEP) {
         obstacle->along = fr_read_line(reader, node);
     } else {
-        check_no_line(reader, node);
+        fr_read_check_no_line(reader, node, "only an <obstacle> with shape='sweep' has a text");
     }
     g_ptr_array_add(reader->document->surroundings.obstacles, obstacle);
 }

@@ -261,6 +261,15 @@ FrStroke *fr_read_line(FrReader *reader, uint32_t node) {
     return line;
 }
 
+void fr_read_check_no_line(FrReader *reader, uint32_t node, const char *message) {
+    FrXmlRange place;
+    char *text = fr_read_text(reader, node, &place);
+    if (*g_strstrip(text) != '\0') {
+        fr_read_error(reader, "unexpected-text", place, "%s", message);
+    }
+    g_free(text);
+}
+
 char *fr_read_path(FrReader *reader, uint32_t node, const char *attribute, const char *file) {
     if (file == NULL || *file == '\0' || reader->context == NULL) {
         return NULL;

@@ -12,6 +12,7 @@ struct FrDocument {
     GPtrArray *plants, *places, *rows, *strews, *views, *materials;
     FrSceneParams scene;
     FrSurroundings surroundings;
+    FrGrowthDef growth;
     FrScope *scope;
 };
 
@@ -61,6 +62,13 @@ FrSkeleton *fr_read_skeleton(FrReader *reader, uint32_t node);
 FrVary *fr_read_vary(FrReader *reader, uint32_t node);
 /// Reports varied plants whose base is no other plant.
 void fr_read_check_bases(FrReader *reader);
+/// Reads a `<species>`.
+FrSpeciesDef *fr_read_species(FrReader *reader, uint32_t node);
+void fr_species_def_free(FrSpeciesDef *species);
+/// The `<growth>` of a `<scene>`.
+void fr_read_growth(FrReader *reader, uint32_t scene);
+void fr_growth_def_init(FrGrowthDef *growth);
+void fr_growth_def_clear(FrGrowthDef *growth);
 void fr_read_scenes(FrReader *reader, uint32_t parent);
 /// Where plants stand in a `<scene>`.
 void fr_read_placing(FrReader *reader, uint32_t scene);
@@ -87,6 +95,8 @@ char *fr_read_text(const FrReader *reader, uint32_t node, FrXmlRange *place);
 /// The line that the text within an element gives, point by point; NULL with an error. Free with
 /// fr_stroke_unref().
 FrStroke *fr_read_line(FrReader *reader, uint32_t node);
+/// The same for an element of that kind that draws nothing: an error if there is a text.
+void fr_read_check_no_line(FrReader *reader, uint32_t node, const char *message);
 /// Where a file that an attribute names lies; NULL for none, or with an error. Free with g_free().
 char *fr_read_path(FrReader *reader, uint32_t node, const char *attribute, const char *file);
 /// The picture that an attribute names, relative to the document; NULL for none, or with an error.
