@@ -38,8 +38,8 @@ typedef struct FrSpeciesDef {
     FrSpeciesSliders sliders;
     FrOrderParams orders[FR_MAX_ORDERS];
     uint32_t order_count;
-    FrMaterial *bark, *leaf;  ///< borrowed from the document; NULL: plain ones
-    FrMeshFile *envelope;     ///< closed, owned; NULL: what the parameters say
+    FrMaterial *bark, *leaf; ///< borrowed from the document; NULL: plain ones
+    FrMeshFile *envelope;    ///< closed, owned; NULL: what the parameters say
     FrSpan span;
 } FrSpeciesDef;
 

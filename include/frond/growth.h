@@ -53,6 +53,7 @@ typedef struct FrGrowthObstacle {
     const uint32_t *indices; ///< three a triangle
     uint32_t index_count;
     bool is_ground; ///< the first internode of a plant grows through it
+    bool is_clear;  ///< it takes no light
 } FrGrowthObstacle;
 
 /// Everything that a growth stands on. Copied; what it points to is copied too where it is not

@@ -25,13 +25,18 @@ typedef struct FrStand {
     double scale;
 } FrStand;
 
-/// One step of plants that grow in each other's light.
+/// One step of plants that grow in each other's light or bud by bud.
 typedef struct FrSceneStep {
     uint64_t step;                 ///< from 1
     double seconds, light_seconds; ///< wall-clock: in all, and for the light
     uint64_t nodes, organs;        ///< of the growing plants before the step
     uint64_t queries;              ///< answered
     uint64_t rays_recast;          ///< traced anew because of what has grown
+    bool grows_buds;               ///< what follows is known, and counts are those after the step
+    uint64_t active_buds;          ///< growing
+    uint64_t shed;                 ///< internodes that fell
+    uint64_t collisions;           ///< buds that found no free way
+    FrDigest digest;               ///< of the growth
 } FrSceneStep;
 
 typedef struct FrScene {

@@ -129,7 +129,7 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                           .is_once = true,
                           .children = SET(SUN) | SET(LIGHT) | SET(LAMP) | SET(OBSTACLE) |
                                       SET(TERRAIN) | SET(PLACE) | SET(ROW) | SET(STREW) |
-                                      SET(VIEW)},
+                                      SET(GROWTH) | SET(VIEW)},
     [FR_ELEMENT_PLACE] = {.name = "place", .table = &place_table, .required = "plant"},
     [FR_ELEMENT_ROW] = {.name = "row", .required = "plants", .has_text = true},
     [FR_ELEMENT_STREW] = {.name = "strew", .required = "plants"},

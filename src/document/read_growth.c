@@ -68,8 +68,8 @@ static void read_envelope(FrReader *reader, uint32_t node, FrSpeciesDef *species
     }
     FrXmlRange place = fr_read_value_place(reader, node, "envelope-file");
     FrStatus status = FR_OK;
-    species->envelope = fr_mesh_file_load(reader->document->folder, file,
-                                          fr_xml_span(reader->tree, place), reader->context, &status);
+    species->envelope = fr_mesh_file_load(
+        reader->document->folder, file, fr_xml_span(reader->tree, place), reader->context, &status);
     fr_read_note(reader, status);
     if (species->envelope != NULL && !species->envelope->is_closed) {
         fr_read_error(reader, "open-envelope", place, "'%s' has no inside: it is not closed", file);
@@ -116,8 +116,7 @@ static void read_particles(FrReader *reader, uint32_t node) {
     if (particles->shape == FR_PARTICLES_BRUSH) {
         particles->along = fr_read_line(reader, node);
     } else {
-        fr_read_check_no_line(reader, node,
-                              "only <particles> with shape='brush' have a text");
+        fr_read_check_no_line(reader, node, "only <particles> with shape='brush' have a text");
     }
     vec3s d = particles->direction;
     if (particles->shape == FR_PARTICLES_DIRECTION && d.x == 0 && d.y == 0 && d.z == 0) {

@@ -102,7 +102,7 @@ typedef struct FrGrownObstacle {
     uint32_t vertex_count;
     uint32_t *indices;
     uint32_t index_count;
-    bool is_ground;
+    bool is_ground, is_clear;
 } FrGrownObstacle;
 
 /// A live bud where it stands, gathered from all plants for a phase of the step.

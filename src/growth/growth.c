@@ -82,7 +82,8 @@ static void take_obstacles(FrGrowth *growth, const FrGrowthSetup *setup) {
             .vertex_count = from->vertex_count,
             .indices = g_memdup2(from->indices, from->index_count * sizeof(uint32_t)),
             .index_count = from->index_count,
-            .is_ground = from->is_ground};
+            .is_ground = from->is_ground,
+            .is_clear = from->is_clear};
     }
 }
 

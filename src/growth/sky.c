@@ -162,7 +162,7 @@ static void draw_triangle(const View *view, const float corner[3][2], const floa
 static void draw_obstacles(const View *view, const FrGrowth *growth) {
     for (uint32_t o = 0; o < growth->obstacle_count; o++) {
         const FrGrownObstacle *obstacle = &growth->obstacles[o];
-        for (uint32_t i = 0; i + 2 < obstacle->index_count; i += 3) {
+        for (uint32_t i = 0; i + 2 < obstacle->index_count && !obstacle->is_clear; i += 3) {
             float corner[3][2], depth[3];
             for (uint32_t k = 0; k < 3; k++) {
                 vec3s at = obstacle->positions[obstacle->indices[i + k]];

@@ -21,6 +21,7 @@ struct FrGrowing {
     FrLighting *lighting;
     uint64_t steps;   ///< at most
     uint64_t queries; ///< answered in this step
+    uint64_t done;    ///< steps
     FrEnvironment environment;
     const Sprout *asking;
     FrGrowingWatch watch;
@@ -195,7 +196,7 @@ static FrStatus derive_all(FrGrowing *growing, const FrContext *context) {
 }
 
 static void note_step(FrGrowing *growing, FrScene *scene, double began, double light) {
-    FrSceneStep step = {.step = scene->steps->len + 1,
+    FrSceneStep step = {.step = ++growing->done,
                         .seconds = (double)g_get_monotonic_time() * 1e-6 - began,
                         .light_seconds = light,
                         .queries = growing->queries,
@@ -207,7 +208,18 @@ static void note_step(FrGrowing *growing, FrScene *scene, double began, double l
         step.organs += plant->organs.count;
     }
     scene->light_seconds += light;
-    g_array_append_val(scene->steps, step);
+    // What grows bud by bud beside them has made the same step already.
+    if (scene->steps->len >= step.step) {
+        FrSceneStep *told = &g_array_index(scene->steps, FrSceneStep, step.step - 1);
+        told->seconds += step.seconds;
+        told->light_seconds += light;
+        told->nodes += step.nodes;
+        told->organs += step.organs;
+        told->queries = step.queries;
+        told->rays_recast = step.rays_recast;
+    } else {
+        g_array_append_val(scene->steps, step);
+    }
 }
 
 /// Shows the first sprout of the definition that is watched.
@@ -222,8 +234,7 @@ static FrStatus show(const FrGrowing *growing, bool is_answered) {
     return FR_OK;
 }
 
-/// One time around the loop.
-static FrStatus grow_step(FrGrowing *growing, FrScene *scene, const FrContext *context) {
+FrStatus fr_growing_step(FrGrowing *growing, FrScene *scene, const FrContext *context) {
     double began = (double)g_get_monotonic_time() * 1e-6;
     growing->queries = 0;
     GPtrArray *old = g_ptr_array_new();
@@ -266,8 +277,15 @@ static bool is_any_growing(const FrGrowing *growing, uint64_t *longest) {
     return is_any;
 }
 
-/// The plants as they stand in the end.
-static FrStatus finish(FrGrowing *growing, FrScene *scene, const FrContext *context) {
+bool fr_growing_has_steps(const FrGrowing *growing) {
+    uint64_t longest;
+    return is_any_growing(growing, &longest);
+}
+
+FrStatus fr_growing_finish(FrGrowing *growing, FrScene *scene, const FrContext *context) {
+    if (growing->sprouts->len == 0) {
+        return FR_OK;
+    }
     GPtrArray *old = g_ptr_array_new();
     FrStatus status = draw_all(growing, scene, context, old);
     for (guint i = 0; i < old->len; i++) {
@@ -283,18 +301,23 @@ static FrStatus finish(FrGrowing *growing, FrScene *scene, const FrContext *cont
     return status == FR_OK ? show(growing, false) : status;
 }
 
+bool fr_growing_is_any(const FrGrowing *growing) {
+    return growing->sprouts->len > 0;
+}
+
+FrStatus fr_growing_begin(FrGrowing *growing, const FrScene *scene, const FrContext *context) {
+    return growing->sprouts->len == 0 ? FR_OK : fr_lighting_new(scene, context, &growing->lighting);
+}
+
 FrStatus fr_growing_run(FrGrowing *growing, FrScene *scene, const FrContext *context) {
-    if (growing->sprouts->len == 0) {
-        return FR_OK;
-    }
-    FrStatus status = fr_lighting_new(scene, context, &growing->lighting);
+    FrStatus status = fr_growing_begin(growing, scene, context);
     uint64_t longest;
     while (status == FR_OK && is_any_growing(growing, &longest)) {
-        status = grow_step(growing, scene, context);
+        status = fr_growing_step(growing, scene, context);
         fr_progress_report(context->progress, "build", (double)scene->steps->len / (double)longest);
         if (status == FR_OK && fr_progress_is_cancelled(context->progress)) {
             status = FR_CANCELLED;
         }
     }
-    return status == FR_OK ? finish(growing, scene, context) : status;
+    return status == FR_OK ? fr_growing_finish(growing, scene, context) : status;
 }

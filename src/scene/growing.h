@@ -25,5 +25,17 @@ void fr_growing_free(FrGrowing *growing);
 FR_MUST_USE FrStatus fr_growing_add(FrGrowing *growing, FrScene *scene,
                                     const FrPlantDef *definition, int64_t seed,
                                     const FrStand *stand, const FrContext *context);
+/// True if there are any.
+bool fr_growing_is_any(const FrGrowing *growing);
+/// Makes the light they grow in, if there are any.
+FR_MUST_USE FrStatus fr_growing_begin(FrGrowing *growing, const FrScene *scene,
+                                      const FrContext *context);
+/// True while any has steps left.
+bool fr_growing_has_steps(const FrGrowing *growing);
+/// One time around the loop.
+FR_MUST_USE FrStatus fr_growing_step(FrGrowing *growing, FrScene *scene, const FrContext *context);
+/// The plants as they stand in the end.
+FR_MUST_USE FrStatus fr_growing_finish(FrGrowing *growing, FrScene *scene,
+                                       const FrContext *context);
 /// Grows them all to their ends.
 FR_MUST_USE FrStatus fr_growing_run(FrGrowing *growing, FrScene *scene, const FrContext *context);

@@ -23,3 +23,5 @@ typedef struct FrSceneParts {
 FR_MUST_USE FrStatus fr_scene_build_parts(const FrDocument *document, int64_t seed,
                                           const FrContext *context, FrSceneParts *parts,
                                           FrScene **scene);
+/// Plants that builds own are theirs to free.
+void fr_scene_forget_parts(FrScene *scene, const FrSceneParts *parts);

@@ -1,10 +1,9 @@
 /// A document built: each plant once for every seed it stands with.
-#include "scene/growing.h"
 #include "scene/obstacles.h"
-#include "scene/placing.h"
 #include "scene/rational.h"
 #include "scene/rebuild.h"
 #include "scene/sampled.h"
+#include "scene/simulation.h"
 #include "scene/varied.h"
 
 #include <math.h>
@@ -25,6 +24,7 @@ typedef struct Build {
     FrHills *hills;         ///< NULL: the ground is level
     GPtrArray *definitions; ///< FrPlantDef *, by plant of the scene
     bool is_check;          ///< nothing is sampled or grown
+    FrEcosystem *ecosystem;
 } Build;
 
 static void clear_plant(void *data) {
@@ -182,7 +182,7 @@ static FrStatus use_plant(Build *build, const FrPlantDef *definition, int64_t ow
 }
 
 /// Adds a plant where `stand` says, by the way it is grown.
-static FrStatus add_stand(Build *build, const FrPlantDef *definition, int64_t own_seed,
+static FrStatus stand_plant(Build *build, const FrPlantDef *definition, int64_t own_seed,
                           FrStand *stand) {
     if (fr_growing_is_wanted(build->scene, definition)) {
         int64_t seed = seed_of(build, own_seed);
@@ -202,21 +202,14 @@ static FrStatus add_stand(Build *build, const FrPlantDef *definition, int64_t ow
     return status;
 }
 
-static FrStatus stand_plant(Build *build, const FrPlantDef *definition, int64_t own_seed,
-                            FrStand *stand) {
-    guint before = build->scene->plants->len;
-    FrStatus status = add_stand(build, definition, own_seed, stand);
-    for (guint i = before; i < build->scene->plants->len; i++) {
-        g_ptr_array_add(build->definitions, (void *)definition);
-    }
-    return status;
-}
-
 /// What definitions say of surfaces, once all plants are there.
 static void set_surfaces(const Build *build) {
     for (guint i = 0; i < build->definitions->len; i++) {
-        fr_rational_set(&g_array_index(build->scene->plants, FrScenePlant, i),
-                        g_ptr_array_index(build->definitions, i), build->time);
+        const FrPlantDef *definition = g_ptr_array_index(build->definitions, i);
+        if (definition != NULL) {
+            fr_rational_set(&g_array_index(build->scene->plants, FrScenePlant, i), definition,
+                            build->time);
+        }
     }
 }
 
@@ -224,8 +217,18 @@ static FrStatus build_place(Build *build, const FrPlaced *placed) {
     if (fr_progress_is_cancelled(build->context->progress)) {
         return FR_CANCELLED;
     }
+    guint before = build->scene->plants->len;
     FrStand stand = placed->stand;
-    return stand_plant(build, placed->plant, placed->seed, &stand);
+    FrStatus status = FR_OK;
+    if (placed->plant->kind == FR_PLANT_SPECIES) {
+        fr_ecosystem_add(build->ecosystem, build->scene, placed);
+    } else {
+        status = stand_plant(build, placed->plant, placed->seed, &stand);
+    }
+    for (guint i = before; i < build->scene->plants->len; i++) {
+        g_ptr_array_add(build->definitions, (void *)placed->plant);
+    }
+    return status;
 }
 
 /// Without places: the first plant at the origin.
@@ -236,11 +239,15 @@ static FrStatus build_first(Build *build) {
                      "there is no plant in this document");
         return FR_ERR_DOCUMENT;
     }
-    FrStand stand = {.scale = 1};
-    if (build->hills != NULL && !fr_hills_height(build->hills, 0, 0, &stand.at[2])) {
-        stand.at[2] = 0;
+    FrPlaced placed = {.plant = g_ptr_array_index(plants, 0),
+                       .stand = {.scale = 1},
+                       .seed = -1,
+                       .key = fr_key_root(1)};
+    double *height = &placed.stand.at[2];
+    if (build->hills != NULL && !fr_hills_height(build->hills, 0, 0, height)) {
+        *height = 0;
     }
-    return stand_plant(build, g_ptr_array_index(plants, 0), -1, &stand);
+    return build_place(build, &placed);
 }
 
 static FrStatus build_places(Build *build) {
@@ -309,27 +316,19 @@ static void free_varied(void *varied) {
     fr_varied_free(varied);
 }
 
-/// Plants that builds own are theirs to free.
-static void forget_built(const Build *build) {
-    const GArray *plants = build->scene->plants;
-    for (guint i = 0; build->parts != NULL && i < build->parts->parts->len; i++) {
-        const FrScenePart *part = &g_array_index(build->parts->parts, FrScenePart, i);
-        if (part->build != NULL && part->plant < plants->len) {
-            g_array_index(plants, FrScenePlant, part->plant).plant = NULL;
+void fr_scene_forget_parts(FrScene *scene, const FrSceneParts *parts) {
+    for (guint i = 0; i < parts->parts->len; i++) {
+        const FrScenePart *part = &g_array_index(parts->parts, FrScenePart, i);
+        if (part->build != NULL && part->plant < scene->plants->len) {
+            g_array_index(scene->plants, FrScenePlant, part->plant).plant = NULL;
         }
     }
 }
 
-/// Builds what is set up in `build`; *scene is NULL unless FR_OK.
-static FrStatus run_build(Build *build, FrScene **scene) {
-    const FrContext *context = build->context;
-    *scene = NULL;
-    build->scene = new_scene(build->document, build->seed);
-    build->built = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
-    build->varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied);
-    build->sampled = fr_sampled_new();
-    build->definitions = g_ptr_array_new();
-    FrStatus status = fr_hills_new(build->scene->surroundings->terrain, context, &build->hills);
+/// Everything but what grows step by step.
+static FrStatus build_all(Build *build) {
+    FrScene *scene = build->scene;
+    FrStatus status = fr_hills_new(scene->surroundings->terrain, build->context, &build->hills);
     if (status == FR_OK) {
         status = build_places(build);
     }
@@ -337,43 +336,77 @@ static FrStatus run_build(Build *build, FrScene **scene) {
         status = build_obstacles(build);
     }
     if (status == FR_OK) {
-        status = fr_sampled_build(build->sampled, build->document, build->scene, context);
+        status = fr_sampled_build(build->sampled, build->document, scene, build->context);
+    }
+    if (status == FR_OK && !fr_ecosystem_is_empty(build->ecosystem)) {
+        status = fr_ecosystem_begin(build->ecosystem, scene, build->hills, build->context);
     }
     if (status == FR_OK) {
-        status = fr_growing_run(build->growing, build->scene, context);
+        status = fr_growing_begin(build->growing, scene, build->context);
     }
     if (status == FR_OK) {
         set_surfaces(build);
     }
-    g_ptr_array_unref(build->definitions);
-    fr_hills_free(build->hills);
-    fr_growing_free(build->growing);
-    fr_sampled_free(build->sampled);
-    g_hash_table_unref(build->built);
-    g_hash_table_unref(build->varied);
-    if (status != FR_OK) {
-        forget_built(build);
-        fr_scene_free(build->scene);
-        return status;
-    }
-    *scene = build->scene;
-    return FR_OK;
+    return status;
 }
 
-static FrStatus build_scene(const FrDocument *document, int64_t seed, double time,
-                            const FrContext *context, FrSceneParts *parts, FrScene **scene) {
-    FrGrowing *growing = fr_growing_new(steps_at(document, time), (FrGrowingWatch){.see = NULL});
-    Build build = {document,           context,       .seed = seed, .time = time,
-                   .growing = growing, .parts = parts};
-    return run_build(&build, scene);
+static uint64_t steps_of(const FrDocument *document, const FrSceneHow *how) {
+    uint64_t steps = how->options.steps < 0 ? (uint64_t)fr_document_growth(document)->params.steps
+                                            : (uint64_t)how->options.steps;
+    return how->is_check ? 0 : MIN(steps, steps_at(document, how->options.time));
+}
+
+FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow *how,
+                        const FrContext *context, FrSimulation *simulation) {
+    const FrSceneOptions *options = &how->options;
+    FrScene *scene = new_scene(document, options->seed);
+    uint64_t derived = how->is_check ? 0 : steps_at(document, options->time);
+    Build build = {.document = document,
+                   .context = context,
+                   .scene = scene,
+                   .built = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
+                   .varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied),
+                   .seed = options->seed,
+                   .time = options->time,
+                   .growing = fr_growing_new(derived, how->watch),
+                   .parts = how->parts,
+                   .sampled = fr_sampled_new(),
+                   .definitions = g_ptr_array_new(),
+                   .is_check = how->is_check};
+    build.ecosystem =
+        fr_ecosystem_new(document, options->seed, how->history,
+                         how->previous == NULL ? NULL : how->previous->ecosystem, scene);
+    g_ptr_array_set_size(build.definitions, (gint)scene->plants->len);
+    FrStatus status = build_all(&build);
+    g_ptr_array_unref(build.definitions);
+    fr_sampled_free(build.sampled);
+    g_hash_table_unref(build.built);
+    g_hash_table_unref(build.varied);
+    *simulation = (FrSimulation){.document = document,
+                                 .scene = scene,
+                                 .ecosystem = build.ecosystem,
+                                 .growing = build.growing,
+                                 .hills = build.hills,
+                                 .steps = steps_of(document, how),
+                                 .seed = options->seed};
+    if (status != FR_OK) {
+        if (how->parts != NULL) {
+            fr_scene_forget_parts(scene, how->parts);
+        }
+        fr_simulation_clear(simulation);
+    }
+    return status;
+}
+
+FrStatus fr_scene_build_with(const FrDocument *document, const FrSceneOptions *options,
+                             const FrContext *context, FrScene **scene) {
+    return fr_scene_run(document, &(FrSceneHow){.options = *options}, context, scene);
 }
 
 FrStatus fr_scene_check(const FrDocument *document, int64_t seed, const FrContext *context,
                         FrScene **scene) {
-    FrGrowing *growing = fr_growing_new(0, (FrGrowingWatch){.see = NULL});
-    Build build = {document, context, .seed = seed, .time = NAN, .growing = growing};
-    build.is_check = true;
-    return run_build(&build, scene);
+    const FrSceneHow how = {.options = {.seed = seed, .time = NAN}, .is_check = true};
+    return fr_scene_run(document, &how, context, scene);
 }
 
 bool fr_scene_is_lit(const FrDocument *document, const FrPlantDef *definition) {
@@ -383,27 +416,29 @@ bool fr_scene_is_lit(const FrDocument *document, const FrPlantDef *definition) {
 
 FrStatus fr_scene_derive(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
                          const FrContext *context, FrDerivedFn see, void *user) {
-    FrGrowing *growing = fr_growing_new(UINT64_MAX, (FrGrowingWatch){definition, see, user});
-    Build build = {document, context, .seed = seed, .time = NAN, .growing = growing};
+    const FrSceneHow how = {.options = {.seed = seed, .time = NAN, .steps = -1},
+                            .watch = {definition, see, user}};
     FrScene *scene;
-    FrStatus status = run_build(&build, &scene);
+    FrStatus status = fr_scene_run(document, &how, context, &scene);
     fr_scene_free(scene);
     return status;
 }
 
-FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContext *context,
-                        FrScene **scene) {
-    return build_scene(document, seed, NAN, context, NULL, scene);
-}
-
 FrStatus fr_scene_build_parts(const FrDocument *document, int64_t seed, const FrContext *context,
                               FrSceneParts *parts, FrScene **scene) {
-    return build_scene(document, seed, NAN, context, parts, scene);
+    const FrSceneHow how = {.options = {.seed = seed, .time = NAN, .steps = -1}, .parts = parts};
+    return fr_scene_run(document, &how, context, scene);
 }
 
 FrStatus fr_scene_build_at(const FrDocument *document, int64_t seed, double time,
                            const FrContext *context, FrScene **scene) {
-    return build_scene(document, seed, time, context, NULL, scene);
+    const FrSceneHow how = {.options = {.seed = seed, .time = time, .steps = -1}};
+    return fr_scene_run(document, &how, context, scene);
+}
+
+FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContext *context,
+                        FrScene **scene) {
+    return fr_scene_build_at(document, seed, NAN, context, scene);
 }
 
 FrDigest fr_scene_digest(const FrScene *scene) {

@@ -1,0 +1,416 @@
+/// Plants that grow bud by bud: from a document's species, seeds, solids and particles to a growth,
+/// and from that to plants of the scene.
+#include "scene/ecosystem.h"
+
+#include "frond/daylight.h"
+#include "scene/particles.h"
+#include "scene/solids.h"
+
+#include <math.h>
+#include <string.h>
+
+struct FrEcosystem {
+    const FrDocument *document;
+    int64_t seed;
+    uint32_t history;
+    GPtrArray *definitions; ///< FrPlantDef * of species, in the order of the document
+    FrSpecies *species;     ///< as many
+    FrDistance **envelopes; ///< as many; NULL
+    GArray *seeds;          ///< FrSeed
+    GArray *plants;         ///< uint32_t: the scene's plant of each seed
+    GHashTable *ids;        ///< of seeds, each to 1 if it is the previous one's and not placed yet
+    FrEcosystem *previous;  ///< to go on from, borrowed; NULL
+    FrGrowth *growth;       ///< NULL before it begins
+    FrDigest world;         ///< of what stands in the way
+};
+
+static void drop_species(FrSpecies *species, FrDistance **envelopes, guint count) {
+    for (guint i = 0; i < count && species != NULL; i++) {
+        fr_params_clear(fr_species_table(), &species[i].params);
+        fr_distance_free(envelopes[i]);
+    }
+    g_free(species);
+    g_free(envelopes);
+}
+
+void fr_ecosystem_free(FrEcosystem *ecosystem) {
+    if (ecosystem == NULL) {
+        return;
+    }
+    fr_growth_free(ecosystem->growth);
+    drop_species(ecosystem->species, ecosystem->envelopes, ecosystem->definitions->len);
+    g_ptr_array_unref(ecosystem->definitions);
+    g_array_unref(ecosystem->seeds);
+    g_array_unref(ecosystem->plants);
+    g_hash_table_unref(ecosystem->ids);
+    g_free(ecosystem);
+}
+
+FrGrowth *fr_ecosystem_growth(const FrEcosystem *ecosystem) {
+    return ecosystem->growth;
+}
+
+uint32_t fr_ecosystem_history(const FrEcosystem *ecosystem) {
+    return ecosystem->history;
+}
+
+bool fr_ecosystem_is_empty(const FrEcosystem *ecosystem) {
+    return ecosystem->seeds->len == 0;
+}
+
+// ---- seeds ------------------------------------------------------------------------------------
+
+static void list_definitions(FrEcosystem *ecosystem) {
+    const GPtrArray *plants = fr_document_plants(ecosystem->document);
+    g_ptr_array_set_size(ecosystem->definitions, 0);
+    for (guint i = 0; i < plants->len; i++) {
+        FrPlantDef *plant = g_ptr_array_index(plants, i);
+        if (plant->kind == FR_PLANT_SPECIES) {
+            g_ptr_array_add(ecosystem->definitions, plant);
+        }
+    }
+}
+
+/// Adds a seed, and an empty plant of the scene for it.
+static void add_seed(FrEcosystem *ecosystem, FrScene *scene, const FrSeed *seed, bool is_old) {
+    g_hash_table_insert(ecosystem->ids, g_memdup2(&seed->id, sizeof seed->id),
+                        GINT_TO_POINTER(is_old));
+    g_array_append_val(ecosystem->seeds, *seed);
+    g_array_append_val(ecosystem->plants, scene->plants->len);
+    const FrPlantDef *definition = g_ptr_array_index(ecosystem->definitions, seed->species);
+    FrScenePlant made = {.plant = fr_plant_new(definition->id)};
+    made.by_component = g_new0(uint64_t, 1);
+    // A plant grows where it stands: upright, and of its own size.
+    FrStand stand = {.plant = scene->plants->len, .scale = 1};
+    memcpy(stand.at, seed->at, sizeof stand.at);
+    g_array_append_val(scene->plants, made);
+    g_array_append_val(scene->stands, stand);
+}
+
+FrEcosystem *fr_ecosystem_new(const FrDocument *document, int64_t seed, uint32_t history,
+                              FrEcosystem *previous, FrScene *scene) {
+    FrEcosystem *made = g_new0(FrEcosystem, 1);
+    *made = (FrEcosystem){.document = document,
+                          .seed = seed,
+                          .history = history,
+                          .definitions = g_ptr_array_new(),
+                          .seeds = g_array_new(FALSE, FALSE, sizeof(FrSeed)),
+                          .plants = g_array_new(FALSE, FALSE, sizeof(uint32_t)),
+                          .ids = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL),
+                          .previous = previous};
+    list_definitions(made);
+    uint32_t old = previous == NULL ? 0 : fr_growth_plant_count(previous->growth);
+    for (uint32_t i = 0; i < old; i++) {
+        FrSeed seed_of = fr_growth_seed(previous->growth, i);
+        if (seed_of.species < made->definitions->len) {
+            add_seed(made, scene, &seed_of, true);
+        }
+    }
+    return made;
+}
+
+void fr_ecosystem_add(FrEcosystem *ecosystem, FrScene *scene, const FrPlaced *placed) {
+    FrSeed seed = {.id = placed->key};
+    memcpy(seed.at, placed->stand.at, sizeof seed.at);
+    gpointer is_old;
+    while (g_hash_table_lookup_extended(ecosystem->ids, &seed.id, NULL, &is_old)) {
+        if (GPOINTER_TO_INT(is_old) != 0) { // it stands there already
+            g_hash_table_insert(ecosystem->ids, g_memdup2(&seed.id, sizeof seed.id), NULL);
+            return;
+        }
+        seed.id = fr_key_child(seed.id, 1); // two of a kind at one place
+    }
+    guint index;
+    bool is_known = g_ptr_array_find(ecosystem->definitions, placed->plant, &index);
+    FR_ASSERT(is_known);
+    seed.species = index;
+    add_seed(ecosystem, scene, &seed, false);
+}
+
+// ---- the world --------------------------------------------------------------------------------
+
+static FrSpecies make_species(const FrPlantDef *definition, FrDistance **envelope) {
+    const FrSpeciesDef *def = definition->species;
+    FrSpecies species = {.name = definition->id,
+                         .order_count = def->order_count,
+                         .bark = def->bark,
+                         .leaf = def->leaf};
+    fr_params_copy(fr_species_table(), &species.params, &def->params);
+    fr_species_apply_sliders(&def->sliders, &species.params);
+    memcpy(species.orders, def->orders, sizeof species.orders);
+    if (def->envelope != NULL) {
+        *envelope = fr_distance_new(def->envelope->positions, def->envelope->vertex_count,
+                                    def->envelope->indices, def->envelope->index_count);
+    }
+    species.envelope = *envelope;
+    return species;
+}
+
+/// What a growth is set up with, and what of it is to be freed.
+typedef struct World {
+    FrGrowthSetup setup;
+    FrSpecies *species;
+    FrDistance **envelopes;
+    vec3s *suns;
+    FrSolids solids;
+} World;
+
+static void clear_world(World *world, guint species) {
+    drop_species(world->species, world->envelopes, species);
+    g_free(world->suns);
+    fr_solids_clear(&world->solids);
+}
+
+static void find_suns(World *world, const FrScene *scene) {
+    FrGrowthParams *params = &world->setup.params;
+    if (params->suns == 0) {
+        return;
+    }
+    const FrSunParams *sun = &scene->surroundings->sun;
+    FrSunPath path = fr_light_sun_path(sun->latitude, scene->params->sun_azimuth,
+                                       scene->params->sun_elevation);
+    world->suns = g_new(vec3s, (size_t)params->suns);
+    params->suns = (int64_t)fr_light_sun_places(path, (size_t)params->suns, world->suns);
+    world->setup.suns = world->suns;
+}
+
+/// All that stands in the scene and does not grow bud by bud.
+static FrStatus add_solids(const FrEcosystem *ecosystem, World *world, const FrScene *scene,
+                           const FrHills *hills, const FrContext *context) {
+    const vec3s box[2] = {world->setup.params.min, world->setup.params.max};
+    world->solids = fr_solids_new();
+    FrStatus status =
+        fr_solids_add_surroundings(&world->solids, scene, hills, box, context);
+    GHashTable *growing = g_hash_table_new(NULL, NULL);
+    for (guint i = 0; i < ecosystem->plants->len; i++) {
+        uint32_t plant = g_array_index(ecosystem->plants, uint32_t, i);
+        g_hash_table_add(growing, GUINT_TO_POINTER(plant));
+    }
+    for (guint i = 0; i < scene->stands->len - scene->obstacles && status == FR_OK; i++) {
+        const FrStand *stand = &g_array_index(scene->stands, FrStand, i);
+        const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, stand->plant).plant;
+        if (!g_hash_table_contains(growing, GUINT_TO_POINTER(stand->plant)) && plant != NULL) {
+            status = fr_solids_add_plant(&world->solids, plant, stand, context);
+        }
+    }
+    g_hash_table_unref(growing);
+    world->setup.obstacles = (const FrGrowthObstacle *)(const void *)world->solids.all->data;
+    world->setup.obstacle_count = world->solids.all->len;
+    return status;
+}
+
+static FrStatus make_world(const FrEcosystem *ecosystem, const FrScene *scene,
+                           const FrHills *hills, const FrContext *context, World *world) {
+    const FrDocument *document = ecosystem->document;
+    *world = (World){.setup = {.params = fr_document_growth(document)->params}};
+    FrGrowthParams *params = &world->setup.params;
+    params->history = MAX(params->history, (int64_t)ecosystem->history);
+    params->seed = ecosystem->seed < 0 ? params->seed : ecosystem->seed % 1000000000;
+    guint count = 0;
+    const GPtrArray *plants = fr_document_plants(document);
+    world->species = g_new0(FrSpecies, plants->len + 1);
+    world->envelopes = g_new0(FrDistance *, plants->len + 1);
+    for (guint i = 0; i < plants->len; i++) {
+        const FrPlantDef *plant = g_ptr_array_index(plants, i);
+        if (plant->kind == FR_PLANT_SPECIES) {
+            world->species[count] = make_species(plant, &world->envelopes[count]);
+            count++;
+        }
+    }
+    world->setup.species = world->species;
+    world->setup.species_count = count;
+    find_suns(world, scene);
+    FrStatus status = add_solids(ecosystem, world, scene, hills, context);
+    if (status != FR_OK) {
+        clear_world(world, count);
+    }
+    return status;
+}
+
+/// Hands the species on: the growth borrows what they point to.
+static void keep_species(FrEcosystem *ecosystem, World *world) {
+    drop_species(ecosystem->species, ecosystem->envelopes, ecosystem->definitions->len);
+    ecosystem->species = world->species;
+    ecosystem->envelopes = world->envelopes;
+    ecosystem->world = fr_solids_digest(&world->solids);
+    world->species = NULL;
+    world->envelopes = NULL;
+    clear_world(world, 0);
+}
+
+/// Those of a previous growth are there already.
+static FrStatus add_particles(FrEcosystem *ecosystem, guint first, const FrContext *context) {
+    GArray *particles;
+    FrStatus status =
+        fr_particles_strewn(fr_document_growth(ecosystem->document), first, context, &particles);
+    if (status == FR_OK) {
+        status = fr_growth_add_particles(ecosystem->growth,
+                                         (const FrParticle *)(const void *)particles->data,
+                                         particles->len, context);
+    }
+    g_clear_pointer(&particles, g_array_unref);
+    return status;
+}
+
+/// Diagnostics of a growth, which knows no places, get that of `<growth>`.
+typedef struct Told {
+    FrContext context;
+    const FrContext *outer;
+} Told;
+
+static Told listen(const FrContext *context) {
+    Told told = {*context, context};
+    told.context.diags = fr_diags_new();
+    return told;
+}
+
+static void tell(Told *told, const FrDocument *document) {
+    FrSpan span = fr_document_growth(document)->span;
+    span = span.source == NULL ? fr_document_span(document) : span;
+    for (size_t i = 0; i < fr_diags_count(told->context.diags); i++) {
+        const FrDiag *diag = fr_diags_get(told->context.diags, i);
+        fr_diags_add(told->outer->diags, diag->severity, diag->code,
+                     diag->span.source == NULL ? span : diag->span, "%s", diag->text);
+    }
+    fr_diags_free(told->context.diags);
+}
+
+static FrStatus check_previous(const FrEcosystem *ecosystem, const FrContext *context) {
+    const FrEcosystem *previous = ecosystem->previous;
+    double cell = fr_document_growth(ecosystem->document)->params.cell;
+    if (previous->definitions->len != ecosystem->definitions->len ||
+        fr_document_growth(previous->document)->params.cell != cell) {
+        fr_diags_add(context->diags, FR_ERROR, "other-world", (FrSpan){0},
+                     "a growth goes on with as many species and cells as wide as it began with");
+        return FR_ERR_DOCUMENT;
+    }
+    return FR_OK;
+}
+
+/// Takes over the growth of the previous one, or makes one.
+static FrStatus make_growth(FrEcosystem *ecosystem, const World *world, const FrContext *context) {
+    FrEcosystem *previous = ecosystem->previous;
+    if (previous == NULL) {
+        return fr_growth_new(&world->setup, context, &ecosystem->growth);
+    }
+    FrStatus status = check_previous(ecosystem, context);
+    if (status == FR_OK) {
+        status = fr_growth_change(previous->growth, &world->setup, context);
+    }
+    if (status == FR_OK) {
+        ecosystem->growth = previous->growth;
+        previous->growth = NULL;
+    }
+    return status;
+}
+
+static FrStatus begin(FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
+                      const FrContext *context) {
+    World world;
+    FrStatus status = make_world(ecosystem, scene, hills, context, &world);
+    if (status != FR_OK) {
+        return status;
+    }
+    const FrEcosystem *previous = ecosystem->previous;
+    guint old_particles =
+        previous == NULL ? 0 : fr_document_growth(previous->document)->particles->len;
+    status = make_growth(ecosystem, &world, context);
+    keep_species(ecosystem, &world);
+    if (status == FR_OK) {
+        uint32_t old = fr_growth_plant_count(ecosystem->growth);
+        const FrSeed *seeds = (const FrSeed *)(const void *)ecosystem->seeds->data;
+        status = fr_growth_add_seeds(ecosystem->growth, seeds + old, ecosystem->seeds->len - old,
+                                     context);
+    }
+    return status == FR_OK ? add_particles(ecosystem, old_particles, context) : status;
+}
+
+FrStatus fr_ecosystem_begin(FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
+                            const FrContext *context) {
+    Told told = listen(context);
+    FrStatus status = begin(ecosystem, scene, hills, &told.context);
+    tell(&told, ecosystem->document);
+    FrEcosystem *previous = ecosystem->previous;
+    if (status != FR_OK && previous != NULL && previous->growth == NULL) {
+        // The growth goes back, with the species that it borrows by now.
+        previous->growth = g_steal_pointer(&ecosystem->growth);
+        drop_species(previous->species, previous->envelopes, previous->definitions->len);
+        previous->species = g_steal_pointer(&ecosystem->species);
+        previous->envelopes = g_steal_pointer(&ecosystem->envelopes);
+    }
+    return status;
+}
+
+FrStatus fr_ecosystem_renew(FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
+                            const FrContext *context) {
+    World world;
+    FrStatus status = make_world(ecosystem, scene, hills, context, &world);
+    if (status == FR_OK) {
+        Told told = listen(context);
+        status = fr_growth_change(ecosystem->growth, &world.setup, &told.context);
+        tell(&told, ecosystem->document);
+        if (status == FR_OK) {
+            keep_species(ecosystem, &world);
+        } else {
+            clear_world(&world, ecosystem->definitions->len);
+        }
+    }
+    return status;
+}
+
+// ---- growing ----------------------------------------------------------------------------------
+
+FrStatus fr_ecosystem_step(FrEcosystem *ecosystem, FrScene *scene, const FrContext *context) {
+    gint64 began = g_get_monotonic_time();
+    Told told = listen(context);
+    FrStatus status = fr_growth_step(ecosystem->growth, &told.context);
+    tell(&told, ecosystem->document);
+    if (status != FR_OK) {
+        return status;
+    }
+    FrGrowthStats stats = fr_growth_stats(ecosystem->growth);
+    FrSceneStep step = {.step = stats.step,
+                        .seconds = (double)(g_get_monotonic_time() - began) * 1e-6,
+                        .light_seconds = stats.light_seconds,
+                        .nodes = stats.nodes,
+                        .organs = stats.leaves,
+                        .grows_buds = true,
+                        .active_buds = stats.active_buds,
+                        .shed = stats.shed,
+                        .collisions = stats.collisions,
+                        .digest = stats.digest};
+    g_array_append_val(scene->steps, step);
+    scene->light_seconds += stats.light_seconds;
+    return FR_OK;
+}
+
+FrStatus fr_ecosystem_draw(const FrEcosystem *ecosystem, FrScene *scene, const FrContext *context,
+                           GPtrArray *old) {
+    uint64_t bytes = 0;
+    FrStatus status = FR_OK;
+    for (guint i = 0; i < fr_growth_plant_count(ecosystem->growth) && status == FR_OK; i++) {
+        FrPlant *drawn;
+        status = fr_growth_plant(ecosystem->growth, i, context, &drawn);
+        if (status != FR_OK) {
+            break;
+        }
+        uint32_t index = g_array_index(ecosystem->plants, uint32_t, i);
+        FrScenePlant *plant = &g_array_index(scene->plants, FrScenePlant, index);
+        g_ptr_array_add(old, plant->plant);
+        g_free(plant->by_component);
+        plant->plant = drawn;
+        plant->by_component = g_new0(uint64_t, drawn->components->len + 1);
+        bytes = fr_count_add(bytes, fr_plant_bytes(drawn));
+        status = fr_limit_check(bytes, context->limits.bytes, "bytes", "the scene",
+                                fr_document_span(ecosystem->document), context->diags);
+    }
+    return status;
+}
+
+FrDigest fr_ecosystem_digest(const FrEcosystem *ecosystem) {
+    size_t size;
+    char *text = fr_document_text(ecosystem->document, &size);
+    FrDigest digest = fr_digest(ecosystem->world, text, size);
+    g_free(text);
+    return fr_digest(digest, &ecosystem->seed, sizeof ecosystem->seed);
+}

@@ -1,0 +1,39 @@
+/// @file scene/simulation.h
+/// A scene between steps. Private to scene.
+#pragma once
+
+#include "frond/simulation.h"
+#include "scene/ecosystem.h"
+#include "scene/growing.h"
+#include "scene/rebuild.h"
+
+struct FrSimulation {
+    const FrDocument *document;
+    FrScene *scene;
+    FrEcosystem *ecosystem; ///< empty where nothing grows bud by bud
+    FrGrowing *growing;     ///< L-systems that answer the light
+    FrHills *hills;         ///< NULL
+    uint64_t steps;         ///< that are asked for
+    int64_t seed;
+    bool is_drawn; ///< the scene has the plants as they are now
+};
+
+/// How a scene is begun.
+typedef struct FrSceneHow {
+    FrSceneOptions options;
+    uint32_t history;             ///< steps that can be undone
+    const FrSimulation *previous; ///< whose plants go on growing; then its ecosystem is an empty
+                                  ///< shell. NULL: none
+    FrSceneParts *parts;          ///< NULL
+    FrGrowingWatch watch;
+    bool is_check; ///< nothing is sampled or grown
+} FrSceneHow;
+
+/// Builds a document up to its first step. After a failure there is nothing to clear.
+FR_MUST_USE FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow *how,
+                                    const FrContext *context, FrSimulation *simulation);
+/// Frees all but the struct itself.
+void fr_simulation_clear(FrSimulation *simulation);
+/// Builds a document with all its steps.
+FR_MUST_USE FrStatus fr_scene_run(const FrDocument *document, const FrSceneHow *how,
+                                  const FrContext *context, FrScene **scene);

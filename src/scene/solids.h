@@ -1,0 +1,23 @@
+/// @file scene/solids.h
+/// Everything of a scene that is in the way of growing plants, as triangles of the world. Private to
+/// scene.
+#pragma once
+
+#include "frond/growth.h"
+#include "scene/terrain.h"
+
+typedef struct FrSolids {
+    GArray *all; ///< FrGrowthObstacle, which own their arrays
+} FrSolids;
+
+FrSolids fr_solids_new(void);
+void fr_solids_clear(FrSolids *solids);
+/// The ground within a box, hills or level, if the scene has any; and all obstacles.
+FR_MUST_USE FrStatus fr_solids_add_surroundings(FrSolids *solids, const FrScene *scene,
+                                                const FrHills *hills, const vec3s box[2],
+                                                const FrContext *context);
+/// A plant where it stands.
+FR_MUST_USE FrStatus fr_solids_add_plant(FrSolids *solids, const FrPlant *plant,
+                                         const FrStand *stand, const FrContext *context);
+/// Changes where any of it does.
+FrDigest fr_solids_digest(const FrSolids *solids);
