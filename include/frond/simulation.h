@@ -27,9 +27,9 @@ FR_API FR_MUST_USE FrStatus fr_simulation_step(FrSimulation *simulation, const F
 /// Takes the last step back; false if there is none to take. Plants that are L-systems stay.
 FR_API bool fr_simulation_undo(FrSimulation *simulation);
 /// Goes on with another document, or with the same one after changes of it: species, world,
-/// obstacles and particles change for what will grow; wood stays as it has grown. What is placed anew
-/// begins as a seed; what has been placed stays. `<growth cell>` and how many species there are must be
-/// as they were, else FR_ERR_DOCUMENT and nothing has changed.
+/// obstacles and particles change for what will grow; wood stays as it has grown. What is placed
+/// anew begins as a seed; what has been placed stays. `<growth cell>` and how many species there
+/// are must be as they were, else FR_ERR_DOCUMENT and nothing has changed.
 FR_API FR_MUST_USE FrStatus fr_simulation_change(FrSimulation *simulation,
                                                  const FrDocument *document,
                                                  const FrContext *context);
@@ -47,8 +47,8 @@ FR_API FR_MUST_USE FrStatus fr_simulation_scene(FrSimulation *simulation, const 
 /// grow too. Free with g_bytes_unref().
 FR_API GBytes *fr_simulation_save(const FrSimulation *simulation, const FrContext *context);
 /// Takes up a saved state. FR_ERR_DOCUMENT with a diagnostic at `span`, and nothing changed, if the
-/// bytes are damaged, or were saved by another version of the program, from another document or with
-/// another seed.
+/// bytes are damaged, or were saved by another version of the program, from another document or
+/// with another seed.
 FR_API FR_MUST_USE FrStatus fr_simulation_restore(FrSimulation *simulation, const void *bytes,
                                                   size_t size, FrSpan span,
                                                   const FrContext *context);

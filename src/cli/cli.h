@@ -43,6 +43,7 @@ typedef struct CliOptions {
     FrLimits limits;
     GPtrArray *nurbs;              ///< char *, NAME=VALUE of --nurbs
     char *camera, *stats, *preset; ///< NULL: not given
+    char *checkpoint, *resume;     ///< files of a growth; NULL
     char *plant;                   ///< to vary, NULL: the first that is a variation
     char *view;                    ///< of an L-system, NULL: the .v beside it if there is one
     bool prints_count;             ///< derive --print count
@@ -111,6 +112,9 @@ int cli_session_signal(void);
 bool cli_check_spared(const CliOptions *options, const char *input);
 /// Reads a document or an L-system and applies --set, --steps and --view.
 FR_MUST_USE FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **document);
+/// Builds as the options say; clocks show `time`, NAN: what the document says.
+FR_MUST_USE FrStatus cli_session_grow(CliSession *session, const FrDocument *document, double time,
+                                      FrScene **scene);
 /// Reads and builds. On failure both are NULL.
 FR_MUST_USE FrStatus cli_session_build(CliSession *session, const char *path, FrDocument **document,
                                        FrScene **scene);
@@ -179,6 +183,11 @@ FR_MUST_USE FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document
 const FrPlantDef *cli_lsystem_find(const CliSession *session, const FrDocument *document);
 /// Names the plants of a scene like the .l file they come from.
 void cli_lsystem_name(const char *path, FrScene *scene);
+
+// ---- growth.c ---------------------------------------------------------------------------------
+
+/// Whether any plant of the document grows bud by bud; --steps are its then.
+bool cli_growth_takes_steps(const FrDocument *document);
 
 // ---- verbs ------------------------------------------------------------------------------------
 

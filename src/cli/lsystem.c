@@ -141,7 +141,7 @@ FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document) {
         status = set_all(session, document, "view", path);
         g_free(path);
     }
-    if (options->steps >= 0 && status == FR_OK) {
+    if (options->steps >= 0 && status == FR_OK && !cli_growth_takes_steps(document)) {
         status = cli_lsystem_set_steps(session, document, options->steps);
     }
     if (status == FR_OK) {

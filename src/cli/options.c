@@ -182,6 +182,14 @@ static bool take_steps(CliOptions *options, const char *value) {
     return take_integer("steps", value, 0, 1000000000, &options->steps);
 }
 
+static bool take_checkpoint(CliOptions *options, const char *value) {
+    return replace_text(&options->checkpoint, value);
+}
+
+static bool take_resume(CliOptions *options, const char *value) {
+    return replace_text(&options->resume, value);
+}
+
 static bool take_view(CliOptions *options, const char *value) {
     return replace_text(&options->view, value);
 }
@@ -262,7 +270,10 @@ static const OptionRow rows[] = {
     {"paths", 0, "COMPONENT", CLI_INFO, "list the paths of its instances, for edits", take_paths},
     {"frames", 0, "A..B", CLI_RENDER,
      "a picture for each frame of a growth sequence, for each step of an L-system", take_frames},
-    {"steps", 0, "N", READING, "steps of an L-system", take_steps},
+    {"steps", 0, "N", READING, "steps of an L-system, and of growth bud by bud", take_steps},
+    {"checkpoint", 0, "FILE", CLI_BUILD | CLI_RENDER,
+     "write what has grown bud by bud to FILE after every step", take_checkpoint},
+    {"resume", 0, "FILE", CLI_BUILD | CLI_RENDER, "go on from such a FILE", take_resume},
     {"view", 0, "FILE", READING, "the view (.v) of an L-system", take_view},
     {"print", 0, "WHAT", CLI_DERIVE, "string (default), count, or steps: counts of each",
      take_print},
@@ -318,6 +329,8 @@ void cli_options_clear(CliOptions *options) {
     g_ptr_array_unref(options->nurbs);
     g_free(options->camera);
     g_free(options->stats);
+    g_free(options->checkpoint);
+    g_free(options->resume);
     g_free(options->preset);
     g_free(options->plant);
     g_free(options->view);

@@ -251,8 +251,7 @@ FrStatus cli_session_build(CliSession *session, const char *path, FrDocument **d
         return status;
     }
     double began = cli_now();
-    status = fr_scene_build_at(*document, session->options->seed, session->options->time,
-                               &session->context, scene);
+    status = cli_session_grow(session, *document, session->options->time, scene);
     session->build_seconds += cli_now() - began;
     if (status == FR_OK && cli_is_lsystem(path)) {
         cli_lsystem_name(path, *scene);

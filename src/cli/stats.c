@@ -87,6 +87,16 @@ static void set_light(json_t *stats, const FrScene *scene) {
     }
 }
 
+/// What a step of plants that grow bud by bud has done.
+static void set_buds(json_t *row, const FrSceneStep *step) {
+    set_count(row, "active_buds", step->active_buds);
+    set_count(row, "shed", step->shed);
+    set_count(row, "collisions", step->collisions);
+    char digest[17];
+    g_snprintf(digest, sizeof digest, "%016" G_GINT64_MODIFIER "x", step->digest);
+    set_text(row, "digest", digest);
+}
+
 /// What every step of plants that grow in the light took and made.
 static void set_steps(json_t *stats, const FrScene *scene) {
     if (scene->steps == NULL || scene->steps->len == 0) {
@@ -96,12 +106,19 @@ static void set_steps(json_t *stats, const FrScene *scene) {
     json_t *steps = json_array();
     for (guint i = 0; i < scene->steps->len; i++) {
         const FrSceneStep *step = &g_array_index(scene->steps, FrSceneStep, i);
-        json_array_append_new(
-            steps,
+        json_t *row =
             json_pack("{s:I, s:f, s:f, s:I, s:I, s:I, s:I}", "step", (json_int_t)step->step,
                       "seconds", step->seconds, "light", step->light_seconds, "nodes",
                       (json_int_t)step->nodes, "organs", (json_int_t)step->organs, "queries",
-                      (json_int_t)step->queries, "rays_recast", (json_int_t)step->rays_recast));
+                      (json_int_t)step->queries, "rays_recast", (json_int_t)step->rays_recast);
+        if (step->grows_buds) {
+            set_buds(row, step);
+        }
+        json_array_append_new(steps, row);
+    }
+    const FrSceneStep *last = &g_array_index(scene->steps, FrSceneStep, scene->steps->len - 1);
+    if (last->grows_buds) {
+        set_count(stats, "active_buds", last->active_buds);
     }
     json_object_set_new(stats, "per_step", steps);
 }

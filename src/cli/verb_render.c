@@ -130,7 +130,7 @@ static FrStatus build_frame(CliSession *session, FrDocument *document, int64_t f
         time = NAN;
     }
     if (status == FR_OK) {
-        status = fr_scene_build_at(document, options->seed, time, &session->context, scene);
+        status = cli_session_grow(session, document, time, scene);
     }
     tell_once(session, all);
     session->build_seconds += cli_now() - began;

@@ -89,8 +89,7 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                           .table = &plant_table,
                           .has_id = true,
                           .children = SET(SLIDER) | SET(PGRAPH) | SET(EDITS) | SET(LSYSTEM) |
-                                      SET(SKELETON) | SET(SPECIES) | SET(NURBS) |
-                                      SET(VARY)},
+                                      SET(SKELETON) | SET(SPECIES) | SET(NURBS) | SET(VARY)},
     [FR_ELEMENT_SLIDER] = {.name = "slider", .table = &slider_table, .has_id = true},
     [FR_ELEMENT_PGRAPH] = {.name = "pgraph",
                            .meaning = "linked components that are expanded to a plant "

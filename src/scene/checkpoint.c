@@ -1,5 +1,5 @@
-/// Saved states of a simulation: a head that says what they belong to, the growth, and what has been
-/// told of its steps.
+/// Saved states of a simulation: a head that says what they belong to, the growth, and what has
+/// been told of its steps.
 #include "scene/simulation.h"
 
 #include <string.h>
@@ -60,7 +60,8 @@ static const char *fault_of(const FrSimulation *simulation, const void *bytes, s
     }
     *code = "other-document";
     if (head->belongs != own.belongs) {
-        return "this growth belongs to another document, to another state of it, or to another seed";
+        return "this growth belongs to another document, to another state of it, or to another "
+               "seed";
     }
     *code = "damaged-checkpoint";
     size_t rest = size - sizeof *head;

@@ -167,8 +167,8 @@ static void find_suns(World *world, const FrScene *scene) {
         return;
     }
     const FrSunParams *sun = &scene->surroundings->sun;
-    FrSunPath path = fr_light_sun_path(sun->latitude, scene->params->sun_azimuth,
-                                       scene->params->sun_elevation);
+    FrSunPath path =
+        fr_light_sun_path(sun->latitude, scene->params->sun_azimuth, scene->params->sun_elevation);
     world->suns = g_new(vec3s, (size_t)params->suns);
     params->suns = (int64_t)fr_light_sun_places(path, (size_t)params->suns, world->suns);
     world->setup.suns = world->suns;
@@ -179,8 +179,7 @@ static FrStatus add_solids(const FrEcosystem *ecosystem, World *world, const FrS
                            const FrHills *hills, const FrContext *context) {
     const vec3s box[2] = {world->setup.params.min, world->setup.params.max};
     world->solids = fr_solids_new();
-    FrStatus status =
-        fr_solids_add_surroundings(&world->solids, scene, hills, box, context);
+    FrStatus status = fr_solids_add_surroundings(&world->solids, scene, hills, box, context);
     GHashTable *growing = g_hash_table_new(NULL, NULL);
     for (guint i = 0; i < ecosystem->plants->len; i++) {
         uint32_t plant = g_array_index(ecosystem->plants, uint32_t, i);
@@ -199,8 +198,8 @@ static FrStatus add_solids(const FrEcosystem *ecosystem, World *world, const FrS
     return status;
 }
 
-static FrStatus make_world(const FrEcosystem *ecosystem, const FrScene *scene,
-                           const FrHills *hills, const FrContext *context, World *world) {
+static FrStatus make_world(const FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
+                           const FrContext *context, World *world) {
     const FrDocument *document = ecosystem->document;
     *world = (World){.setup = {.params = fr_document_growth(document)->params}};
     FrGrowthParams *params = &world->setup.params;
@@ -413,4 +412,47 @@ FrDigest fr_ecosystem_digest(const FrEcosystem *ecosystem) {
     FrDigest digest = fr_digest(ecosystem->world, text, size);
     g_free(text);
     return fr_digest(digest, &ecosystem->seed, sizeof ecosystem->seed);
+}
+
+// ---- alone ------------------------------------------------------------------------------------
+
+static FrStatus run_alone(const FrGrowthSetup *setup, uint64_t seed, const FrContext *context,
+                          FrPlant **plant) {
+    FrGrowth *growth;
+    FrStatus status = fr_growth_new(setup, context, &growth);
+    const FrSeed one = {.id = fr_key_root(seed)};
+    if (status == FR_OK) {
+        status = fr_growth_add_seeds(growth, &one, 1, context);
+    }
+    for (int64_t i = 0; i < setup->params.steps && status == FR_OK; i++) {
+        status = fr_growth_step(growth, context);
+        status =
+            status == FR_OK && fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : status;
+    }
+    if (status == FR_OK) {
+        status = fr_growth_plant(growth, 0, context, plant);
+    }
+    fr_growth_free(growth);
+    return status;
+}
+
+FrStatus fr_ecosystem_grow_alone(const FrDocument *document, const FrPlantDef *definition,
+                                 uint64_t seed, const FrContext *context, FrPlant **plant) {
+    *plant = NULL;
+    World world = {.setup = {.params = fr_document_growth(document)->params, .species_count = 1},
+                   .solids = fr_solids_new()};
+    world.species = g_new0(FrSpecies, 1);
+    world.envelopes = g_new0(FrDistance *, 1);
+    world.species[0] = make_species(definition, &world.envelopes[0]);
+    world.setup.species = world.species;
+    world.setup.params.suns = 0;
+    const vec3s box[2] = {world.setup.params.min, world.setup.params.max};
+    fr_solids_add_level(&world.solids, box);
+    world.setup.obstacles = (const FrGrowthObstacle *)(const void *)world.solids.all->data;
+    world.setup.obstacle_count = world.solids.all->len;
+    Told told = listen(context);
+    FrStatus status = run_alone(&world.setup, seed, &told.context, plant);
+    tell(&told, document);
+    clear_world(&world, 1);
+    return status;
 }

@@ -6,8 +6,8 @@
 
 typedef struct FrEcosystem FrEcosystem;
 
-/// `seed` < 0: as the document says. Keeps `history` steps to go back. With a `previous` one (NULL) it
-/// goes on with what has grown there: that one's plants are the first of the scene, and it ends
+/// `seed` < 0: as the document says. Keeps `history` steps to go back. With a `previous` one (NULL)
+/// it goes on with what has grown there: that one's plants are the first of the scene, and it ends
 /// when this one begins.
 FrEcosystem *fr_ecosystem_new(const FrDocument *document, int64_t seed, uint32_t history,
                               FrEcosystem *previous, FrScene *scene);
@@ -34,3 +34,7 @@ FrGrowth *fr_ecosystem_growth(const FrEcosystem *ecosystem);
 uint32_t fr_ecosystem_history(const FrEcosystem *ecosystem);
 /// What its state depends on besides: the document, its seed, what stands in the way.
 FrDigest fr_ecosystem_digest(const FrEcosystem *ecosystem);
+/// One plant of a species in a world of its own: light all around, level ground, all steps.
+FR_MUST_USE FrStatus fr_ecosystem_grow_alone(const FrDocument *document,
+                                             const FrPlantDef *definition, uint64_t seed,
+                                             const FrContext *context, FrPlant **plant);

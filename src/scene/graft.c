@@ -2,6 +2,7 @@
 /// beforehand, because many threads ask for grafts at once.
 #include "scene/graft.h"
 
+#include "scene/ecosystem.h"
 #include "scene/find.h"
 #include "scene/varied.h"
 
@@ -109,6 +110,8 @@ static FrStatus grow(void *data, const FrGraftWish *wish, const FrContext *conte
         return grow_lsystem(definition->lsystem, wish, context, plant);
     case FR_PLANT_SKELETON:
         return fr_skeleton_grow(definition->skeleton, definition->id, context, plant);
+    case FR_PLANT_SPECIES:
+        return fr_ecosystem_grow_alone(grafter->document, definition, wish->key, context, plant);
     case FR_PLANT_VARIED:
         return grow_varied(g_hash_table_lookup(grafter->varied, definition), definition, wish,
                            context, plant);

@@ -1,6 +1,7 @@
 /// One plant built by the engine of its definition.
 #include "scene/grow.h"
 
+#include "scene/ecosystem.h"
 #include "scene/graft.h"
 
 #include <math.h>
@@ -66,6 +67,18 @@ static FrStatus grow_skeleton(const FrPlantDef *definition, const FrContext *con
     return status;
 }
 
+/// As it grows where nothing else stands.
+static FrStatus grow_species(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
+                             const FrContext *context, FrScenePlant *made) {
+    uint64_t own_seed = seed < 0 ? definition->seed : (uint64_t)seed;
+    FrStatus status =
+        fr_ecosystem_grow_alone(document, definition, own_seed, context, &made->plant);
+    if (status == FR_OK) {
+        made->by_component = fr_scene_count_made(made->plant);
+    }
+    return status;
+}
+
 FrStatus fr_scene_grow(const FrDocument *document, const FrPlantDef *definition, int64_t seed,
                        double time, const FrContext *context, FrScenePlant *plant,
                        FrPgraphCounts *counts) {
@@ -86,6 +99,9 @@ FrStatus fr_scene_grow_in_light(const FrDocument *document, const FrPlantDef *de
     }
     if (definition->kind == FR_PLANT_SKELETON) {
         return grow_skeleton(definition, context, plant);
+    }
+    if (definition->kind == FR_PLANT_SPECIES) {
+        return grow_species(document, definition, seed, context, plant);
     }
     FrPgraphCounts own = {0};
     FrStatus status = grow_pgraph(document, definition, seed, time, light, context, plant,

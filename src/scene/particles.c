@@ -21,8 +21,7 @@ static double pressure_at(const FrStroke *stroke, double distance) {
         double piece = (double)glms_vec3_distance(points[i - 1].at, points[i].at);
         if (reached + piece >= distance && piece > 0) {
             double part = (distance - reached) / piece;
-            return (1 - part) * (double)points[i - 1].pressure +
-                   part * (double)points[i].pressure;
+            return (1 - part) * (double)points[i - 1].pressure + part * (double)points[i].pressure;
         }
         reached += piece;
     }
@@ -38,8 +37,7 @@ static vec3s on_brush(const FrParticlesDef *def, FrKey key, uint32_t k) {
 }
 
 static FrParticle draw(const FrParticlesDef *def, FrKey key, uint32_t k) {
-    FrParticle particle = {
-        .w = 1, .influence = (float)def->influence, .kill = (float)def->kill};
+    FrParticle particle = {.w = 1, .influence = (float)def->influence, .kill = (float)def->kill};
     vec3s half = glms_vec3_scale(def->size, 0.5F);
     switch (def->shape) {
     case FR_PARTICLES_BALL:

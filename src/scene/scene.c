@@ -183,7 +183,7 @@ static FrStatus use_plant(Build *build, const FrPlantDef *definition, int64_t ow
 
 /// Adds a plant where `stand` says, by the way it is grown.
 static FrStatus stand_plant(Build *build, const FrPlantDef *definition, int64_t own_seed,
-                          FrStand *stand) {
+                            FrStand *stand) {
     if (fr_growing_is_wanted(build->scene, definition)) {
         int64_t seed = seed_of(build, own_seed);
         seed = seed < 0 && definition->has_seed ? (int64_t)definition->seed : seed;
@@ -356,8 +356,8 @@ static uint64_t steps_of(const FrDocument *document, const FrSceneHow *how) {
     return how->is_check ? 0 : MIN(steps, steps_at(document, how->options.time));
 }
 
-FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow *how,
-                        const FrContext *context, FrSimulation *simulation) {
+FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow *how, const FrContext *context,
+                        FrSimulation *simulation) {
     const FrSceneOptions *options = &how->options;
     FrScene *scene = new_scene(document, options->seed);
     uint64_t derived = how->is_check ? 0 : steps_at(document, options->time);

@@ -1,5 +1,5 @@
-/// Scenes that grow step by step: plants of species bud by bud, and in their light the L-systems that
-/// stand among them.
+/// Scenes that grow step by step: plants of species bud by bud, and in their light the L-systems
+/// that stand among them.
 #include "scene/simulation.h"
 
 #include <math.h>
@@ -84,8 +84,8 @@ static FrStatus run_step(FrSimulation *simulation, const FrSceneOptions *options
                          const FrContext *context) {
     bool is_growing = fr_simulation_is_growing(simulation) &&
                       fr_simulation_stats(simulation).step < simulation->steps;
-    FrStatus status = is_growing ? fr_simulation_step(simulation, context)
-                                 : step_growing(simulation, context);
+    FrStatus status =
+        is_growing ? fr_simulation_step(simulation, context) : step_growing(simulation, context);
     uint64_t step = fr_simulation_stats(simulation).step;
     if (status == FR_OK && is_growing && options->after_step != NULL) {
         status = options->after_step(options->data, simulation, context);
@@ -175,10 +175,9 @@ bool fr_simulation_undo(FrSimulation *simulation) {
 
 FrStatus fr_simulation_change(FrSimulation *simulation, const FrDocument *document,
                               const FrContext *context) {
-    const FrSceneHow how = {
-        .options = {.seed = simulation->seed, .time = NAN, .steps = -1},
-        .history = fr_ecosystem_history(simulation->ecosystem),
-        .previous = fr_simulation_is_growing(simulation) ? simulation : NULL};
+    const FrSceneHow how = {.options = {.seed = simulation->seed, .time = NAN, .steps = -1},
+                            .history = fr_ecosystem_history(simulation->ecosystem),
+                            .previous = fr_simulation_is_growing(simulation) ? simulation : NULL};
     FrSimulation next;
     FrStatus status = fr_scene_begin(document, &how, context, &next);
     if (status == FR_OK) {

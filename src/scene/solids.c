@@ -113,8 +113,7 @@ static void add_hills(FrSolids *solids, const FrTerrain *terrain, const FrHills 
     g_array_append_val(solids->all, solid);
 }
 
-/// A square at z = 0 over the box.
-static void add_level(FrSolids *solids, const vec3s box[2]) {
+void fr_solids_add_level(FrSolids *solids, const vec3s box[2]) {
     if (box[0].z >= 0 || box[1].z <= 0) {
         return;
     }
@@ -136,7 +135,7 @@ FrStatus fr_solids_add_surroundings(FrSolids *solids, const FrScene *scene, cons
     if (hills != NULL) {
         add_hills(solids, scene->surroundings->terrain, hills);
     } else if (scene->params->ground) {
-        add_level(solids, box);
+        fr_solids_add_level(solids, box);
     }
     const GPtrArray *obstacles = scene->surroundings->obstacles;
     FrStatus status = FR_OK;

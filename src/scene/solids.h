@@ -1,6 +1,6 @@
 /// @file scene/solids.h
-/// Everything of a scene that is in the way of growing plants, as triangles of the world. Private to
-/// scene.
+/// Everything of a scene that is in the way of growing plants, as triangles of the world. Private
+/// to scene.
 #pragma once
 
 #include "frond/growth.h"
@@ -12,6 +12,8 @@ typedef struct FrSolids {
 
 FrSolids fr_solids_new(void);
 void fr_solids_clear(FrSolids *solids);
+/// A level ground at z = 0 over a box, if that is within.
+void fr_solids_add_level(FrSolids *solids, const vec3s box[2]);
 /// The ground within a box, hills or level, if the scene has any; and all obstacles.
 FR_MUST_USE FrStatus fr_solids_add_surroundings(FrSolids *solids, const FrScene *scene,
                                                 const FrHills *hills, const vec3s box[2],

@@ -1,0 +1,64 @@
+/// Scenes built from the command line, with the files that a growth is saved to and resumed from.
+#include "cli/cli.h"
+
+#include "frond/simulation.h"
+
+bool cli_growth_takes_steps(const FrDocument *document) {
+    const GPtrArray *plants = fr_document_plants(document);
+    bool takes = false;
+    for (guint i = 0; i < plants->len; i++) {
+        takes |= ((const FrPlantDef *)g_ptr_array_index(plants, i))->kind == FR_PLANT_SPECIES;
+    }
+    return takes;
+}
+
+/// The file is replaced at once, so that one step is lost at most.
+static FrStatus write_checkpoint(void *data, const FrSimulation *simulation,
+                                 const FrContext *context) {
+    CliSession *session = data;
+    GBytes *bytes = fr_simulation_save(simulation, context);
+    if (bytes == NULL) {
+        return FR_ERR_DOCUMENT;
+    }
+    gsize size;
+    const void *content = g_bytes_get_data(bytes, &size);
+    FrStatus status = cli_session_save(session, session->options->checkpoint, content, size);
+    g_bytes_unref(bytes);
+    return status;
+}
+
+FrStatus cli_session_grow(CliSession *session, const FrDocument *document, double time,
+                          FrScene **scene) {
+    const CliOptions *options = session->options;
+    *scene = NULL;
+    if ((options->checkpoint != NULL || options->resume != NULL) &&
+        !cli_growth_takes_steps(document)) {
+        cli_message("nothing in the document grows bud by bud, so there is nothing to save or "
+                    "resume");
+        return FR_ERR_USAGE;
+    }
+    FrSceneOptions how = {.seed = options->seed,
+                          .time = time,
+                          .steps = options->steps,
+                          .after_step = options->checkpoint != NULL ? write_checkpoint : NULL,
+                          .data = session};
+    char *saved = NULL;
+    FrSource *named = NULL;
+    if (options->resume != NULL) {
+        GError *error = NULL;
+        if (!g_file_get_contents(options->resume, &saved, &how.resume_size, &error)) {
+            cli_message("cannot resume: %s", error->message);
+            g_error_free(error);
+            return FR_ERR_MACHINE;
+        }
+        how.resume = saved;
+        named = fr_source_new(options->resume, "", 0); // its bytes are no text to show
+        how.resume_span = (FrSpan){.source = named};
+    }
+    FrStatus status = fr_scene_build_with(document, &how, &session->context, scene);
+    if (named != NULL) {
+        fr_source_unref(named);
+    }
+    g_free(saved);
+    return status;
+}
