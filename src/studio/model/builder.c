@@ -2,6 +2,7 @@
 
 #include "frond/contents.h"
 #include "studio/model/painter.h"
+#include "studio/model/picked.h"
 
 #include <math.h>
 #include <string.h>
@@ -344,4 +345,17 @@ bool studio_builder_take_picture(StudioBuilder *builder, StudioPicture *picture)
 
 bool studio_builder_is_painting(StudioBuilder *builder) {
     return studio_painter_is_busy(builder->painter);
+}
+
+bool studio_builder_pick(StudioBuilder *builder, const double origin[3], const double direction[3],
+                         double spread, StudioPicked *picked) {
+    g_mutex_lock(&builder->lock); // nothing begins while it is held
+    const FrScene *scene = builder->progress == NULL ? fr_rebuild_scene(builder->rebuild) : NULL;
+    FrPick pick;
+    bool is_met = scene != NULL && fr_scene_pick(scene, origin, direction, spread, &pick);
+    if (is_met) {
+        *picked = studio_picked_of(scene, &pick);
+    }
+    g_mutex_unlock(&builder->lock);
+    return is_met;
 }

@@ -40,6 +40,15 @@ typedef struct StudioPicture {
     bool is_clamped; ///< not repeated: leaves
 } StudioPicture;
 
+/// What was picked, and lines that show it.
+typedef struct StudioPicked {
+    char *plant, *component; ///< ids; NULL: none
+    FrKey path;
+    bool is_organ;
+    double distance;
+    GArray *lines; ///< float[3], in pairs, in the scene's coordinates
+} StudioPicked;
+
 StudioBuilder *studio_builder_new(StudioWake wake, void *user);
 /// Cancels what runs, waits for it and frees everything.
 void studio_builder_free(StudioBuilder *builder);
@@ -58,3 +67,8 @@ void studio_builder_release(StudioBuilder *builder);
 bool studio_builder_take_picture(StudioBuilder *builder, StudioPicture *picture);
 /// Whether pictures are still being made.
 bool studio_builder_is_painting(StudioBuilder *builder);
+/// What of the last view a ray meets first, as in fr_scene_pick(). False: nothing, or the view is
+/// just being replaced. Otherwise free with studio_picked_clear().
+bool studio_builder_pick(StudioBuilder *builder, const double origin[3], const double direction[3],
+                         double spread, StudioPicked *picked);
+void studio_picked_clear(StudioPicked *picked);

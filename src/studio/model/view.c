@@ -137,11 +137,12 @@ static vec3s tint_of(const FrMaterial *material) {
 
 static StudioLook look_of(FrMaterial *material) {
     const FrMaterialParams *params = fr_material_params(material);
-    vec3s colour = tint_of(material);
+    vec3s colour = tint_of(material), over = fr_material_tint(material);
     return (StudioLook){
         .material = fr_material_ref(material),
         .digest = studio_look_digest(material, ""),
         .tint = {linear(colour.x), linear(colour.y), linear(colour.z)},
+        .picture_tint = {linear(over.x), linear(over.y), linear(over.z)},
         .alpha_cutoff = (float)params->alpha_cutoff,
         .translucency = (float)params->translucency,
         .roughness = (float)params->roughness,

@@ -25,9 +25,10 @@ typedef struct StudioShape {
 } StudioShape;
 
 typedef struct StudioLook {
-    FrMaterial *material; ///< a reference
-    FrDigest digest;      ///< of all that its pictures depend on
-    float tint[3];        ///< linear; of what has no picture
+    FrMaterial *material;  ///< a reference
+    FrDigest digest;       ///< of all that its pictures depend on
+    float tint[3];         ///< linear; of what has no picture
+    float picture_tint[3]; ///< linear; multiplies the picture
     float alpha_cutoff, translucency, roughness;
 } StudioLook;
 

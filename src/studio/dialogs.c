@@ -1,0 +1,167 @@
+/// Preferences, shortcuts, about, and the question before something is lost.
+#include "studio/window_private.h"
+
+#include <string.h>
+
+// ---- preferences -------------------------------------------------------------------------------
+
+static void on_dark(GObject *toggle, GParamSpec *spec, StudioWindow *window) {
+    (void)spec;
+    bool is_dark = gtk_switch_get_active(GTK_SWITCH(toggle));
+    studio_settings_set_bool(window->settings, "dark", is_dark);
+    adw_style_manager_set_color_scheme(adw_style_manager_get_default(),
+                                       is_dark ? ADW_COLOR_SCHEME_FORCE_DARK
+                                               : ADW_COLOR_SCHEME_FORCE_LIGHT);
+    studio_viewport_display(window->viewport)->is_dark = is_dark;
+    studio_viewport_update(window->viewport);
+}
+
+static GtkWidget *switch_row(const char *title, const char *subtitle, GtkWidget **toggle) {
+    GtkWidget *row = adw_action_row_new();
+    adw_preferences_row_set_title(ADW_PREFERENCES_ROW(row), title);
+    adw_action_row_set_subtitle(ADW_ACTION_ROW(row), subtitle);
+    *toggle = gtk_switch_new();
+    gtk_widget_set_valign(*toggle, GTK_ALIGN_CENTER);
+    adw_action_row_add_suffix(ADW_ACTION_ROW(row), *toggle);
+    adw_action_row_set_activatable_widget(ADW_ACTION_ROW(row), *toggle);
+    return row;
+}
+
+static GtkWidget *display_row(const char *title, const char *subtitle, const char *action) {
+    GtkWidget *toggle;
+    GtkWidget *row = switch_row(title, subtitle, &toggle);
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(toggle), action);
+    return row;
+}
+
+void studio_window_show_preferences(StudioWindow *window) {
+    GtkWidget *dialog = adw_preferences_window_new();
+    GtkWidget *page = adw_preferences_page_new();
+    GtkWidget *look = adw_preferences_group_new(), *picture = adw_preferences_group_new();
+    adw_preferences_group_set_title(ADW_PREFERENCES_GROUP(look), "Appearance");
+    adw_preferences_group_set_title(ADW_PREFERENCES_GROUP(picture), "Picture");
+    GtkWidget *dark;
+    adw_preferences_group_add(ADW_PREFERENCES_GROUP(look),
+                              switch_row("Dark", "Plants stand out on a dark ground", &dark));
+    gtk_switch_set_active(GTK_SWITCH(dark), studio_settings_bool(window->settings, "dark", true));
+    g_signal_connect(dark, "notify::active", G_CALLBACK(on_dark), window);
+    if (window->document != NULL) {
+        gtk_widget_insert_action_group(dialog, "win", G_ACTION_GROUP(window));
+        adw_preferences_group_add(
+            ADW_PREFERENCES_GROUP(picture),
+            display_row("Grid", "A floor with lines a step apart", "win.grid"));
+        adw_preferences_group_add(
+            ADW_PREFERENCES_GROUP(picture),
+            display_row("Shadows", "The sun's, as the scene has it", "win.shadow"));
+        adw_preferences_group_add(
+            ADW_PREFERENCES_GROUP(picture),
+            display_row("Ambient occlusion", "Darker where much is near", "win.occlusion"));
+    }
+    adw_preferences_page_add(ADW_PREFERENCES_PAGE(page), ADW_PREFERENCES_GROUP(look));
+    adw_preferences_page_add(ADW_PREFERENCES_PAGE(page), ADW_PREFERENCES_GROUP(picture));
+    adw_preferences_window_add(ADW_PREFERENCES_WINDOW(dialog), ADW_PREFERENCES_PAGE(page));
+    gtk_window_set_transient_for(GTK_WINDOW(dialog), GTK_WINDOW(window));
+    gtk_window_set_modal(GTK_WINDOW(dialog), TRUE);
+    gtk_window_present(GTK_WINDOW(dialog));
+}
+
+// ---- shortcuts ---------------------------------------------------------------------------------
+
+static const char shortcuts[] =
+    "<interface><object class='GtkShortcutsWindow' id='window'><property name='modal'>1</property>"
+    "<child><object class='GtkShortcutsSection'><property name='section-name'>all</property>"
+    "%s</object></child></object></interface>";
+
+typedef struct Shortcut {
+    const char *group, *keys, *title; ///< `group` NULL: as before
+} Shortcut;
+
+static const Shortcut rows[] = {
+    {"Document", "<Control>n", "New window"},
+    {NULL, "<Control>o", "Open"},
+    {NULL, "<Control>s", "Save"},
+    {NULL, "<Control><Shift>s", "Save as"},
+    {NULL, "<Control>e", "Export"},
+    {NULL, "<Control>z", "Undo"},
+    {NULL, "<Control><Shift>z", "Redo"},
+    {NULL, "F8", "Go to the first problem"},
+    {"Components", "<Control>d", "Duplicate"},
+    {NULL, "Delete", "Remove"},
+    {NULL, "<Control>k", "Enable or disable"},
+    {NULL, "<Control>r", "Roll another seed"},
+    {"View", "f", "Show all"},
+    {NULL, "1", "Shaded"},
+    {NULL, "2", "Wireframe"},
+    {NULL, "3", "Skeleton"},
+    {NULL, "Left Right Up Down", "Turn; with Shift, move"},
+    {NULL, "<Control>plus", "Nearer"},
+    {NULL, "<Control>minus", "Farther"},
+    {"Panels", "<Alt>1", "Graph"},
+    {NULL, "<Alt>2", "Contents"},
+    {NULL, "<Alt>3", "Text"},
+    {NULL, "F1", "Help"},
+};
+
+void studio_window_show_shortcuts(StudioWindow *window) {
+    GString *groups = g_string_new(NULL);
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        if (rows[i].group != NULL) {
+            g_string_append_printf(groups,
+                                   "%s<child><object class='GtkShortcutsGroup'>"
+                                   "<property name='title'>%s</property>",
+                                   i == 0 ? "" : "</object></child>", rows[i].group);
+        }
+        char *row = g_markup_printf_escaped(
+            "<child><object class='GtkShortcutsShortcut'><property name='accelerator'>%s</property>"
+            "<property name='title'>%s</property></object></child>",
+            rows[i].keys, rows[i].title);
+        g_string_append(groups, row);
+        g_free(row);
+    }
+    g_string_append(groups, "</object></child>");
+    char *text = g_strdup_printf(shortcuts, groups->str);
+    GtkBuilder *builder = gtk_builder_new_from_string(text, -1);
+    GtkWindow *dialog = GTK_WINDOW(gtk_builder_get_object(builder, "window"));
+    gtk_window_set_transient_for(dialog, GTK_WINDOW(window));
+    gtk_window_present(dialog);
+    g_object_unref(builder);
+    g_free(text);
+    g_string_free(groups, TRUE);
+}
+
+void studio_window_show_about(StudioWindow *window) {
+    adw_show_about_window(GTK_WINDOW(window), "application-name", "Frond Studio",
+                          "application-icon", "org.frond.Studio", "version", FROND_VERSION,
+                          "license-type", GTK_LICENSE_MIT_X11, "comments",
+                          "Shape plants with your hands", NULL);
+}
+
+// ---- before something is lost ------------------------------------------------------------------
+
+static void on_answer(AdwMessageDialog *dialog, const char *response, StudioWindow *window) {
+    (void)dialog;
+    if (strcmp(response, "discard") == 0) {
+        window->is_closing = true;
+        gtk_window_close(GTK_WINDOW(window));
+    } else if (strcmp(response, "save") == 0) {
+        gtk_widget_activate_action(GTK_WIDGET(window), "win.save", NULL);
+        if (studio_document_is_saved(window->document)) {
+            gtk_window_close(GTK_WINDOW(window));
+        }
+    }
+}
+
+void studio_window_ask_and_close(StudioWindow *window) {
+    GtkWidget *dialog = adw_message_dialog_new(
+        GTK_WINDOW(window), "Save Changes?",
+        "Changes that are not saved will be lost for good when the window is closed.");
+    AdwMessageDialog *message = ADW_MESSAGE_DIALOG(dialog);
+    adw_message_dialog_add_responses(message, "cancel", "_Cancel", "discard", "_Discard", "save",
+                                     "_Save", NULL);
+    adw_message_dialog_set_response_appearance(message, "discard", ADW_RESPONSE_DESTRUCTIVE);
+    adw_message_dialog_set_response_appearance(message, "save", ADW_RESPONSE_SUGGESTED);
+    adw_message_dialog_set_default_response(message, "save");
+    adw_message_dialog_set_close_response(message, "cancel");
+    g_signal_connect(dialog, "response", G_CALLBACK(on_answer), window);
+    gtk_window_present(GTK_WINDOW(dialog));
+}

@@ -1,0 +1,18 @@
+/// @file drive.h
+/// The program driven from outside: for tests, and for the pictures of the manual.
+#pragma once
+
+#include "studio/window.h"
+
+/// Reads commands from standard input, one a line, and answers each with a line:
+///
+///   do ACTION              activates an action of the window: add::leaf, mode('skeleton'), undo
+///   open FILE              opens a document in the window
+///   wait                   answers when all is built, painted and drawn
+///   size WIDTH HEIGHT      of the window
+///   turn AZIMUTH ELEVATION ZOOM    the view, by degrees and a factor
+///   where NAME             answers X Y WIDTH HEIGHT of a widget, or of the box of a component
+///   picture FILE           writes a PNG of the window
+///   state                  answers with what the document and the view are, as JSON
+///   quit                   ends without a question
+void studio_drive(StudioWindow *window);

@@ -1,0 +1,210 @@
+/// How the graph panel looks.
+#include "studio/graph_panel_private.h"
+
+#include <math.h>
+
+static void rounded(cairo_t *cairo, double x, double y, double width, double height, double r) {
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, x + width - r, y + r, r, -G_PI / 2, 0);
+    cairo_arc(cairo, x + width - r, y + height - r, r, 0, G_PI / 2);
+    cairo_arc(cairo, x + r, y + height - r, r, G_PI / 2, G_PI);
+    cairo_arc(cairo, x + r, y + r, r, G_PI, 1.5 * G_PI);
+    cairo_close_path(cairo);
+}
+
+static void text_at(StudioGraphPanel *panel, cairo_t *cairo, const char *text, double x, double y,
+                    double width, double size, bool is_bold) {
+    PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(panel), text);
+    PangoFontDescription *font = pango_font_description_copy(
+        pango_context_get_font_description(gtk_widget_get_pango_context(GTK_WIDGET(panel))));
+    pango_font_description_set_absolute_size(font, size * PANGO_SCALE);
+    if (is_bold) {
+        pango_font_description_set_weight(font, PANGO_WEIGHT_BOLD);
+    }
+    pango_layout_set_font_description(layout, font);
+    if (width > 0) {
+        pango_layout_set_width(layout, (int)(width * PANGO_SCALE));
+        pango_layout_set_ellipsize(layout, PANGO_ELLIPSIZE_END);
+    }
+    cairo_move_to(cairo, x, y);
+    pango_cairo_show_layout(cairo, layout);
+    pango_font_description_free(font);
+    g_object_unref(layout);
+}
+
+// Child links are thin, branch links bold, leaf links dashed, as in the paper.
+static void draw_wire(StudioGraphPanel *panel, cairo_t *cairo, const StudioWire *wire,
+                      const GdkRGBA *ink) {
+    static const double dashes[] = {5, 4};
+    double at[4][2];
+    studio_graph_wire_course(panel, wire, at);
+    bool is_chosen = wire->element == panel->selected;
+    cairo_set_source_rgba(cairo, is_chosen ? 1 : ink->red, is_chosen ? 0.62 : ink->green,
+                          is_chosen ? 0.13 : ink->blue, is_chosen ? 1 : 0.6);
+    cairo_set_line_width(cairo, wire->kind == FR_LINK_BRANCH ? 3.2 : 1.3);
+    cairo_set_dash(cairo, dashes, wire->kind == FR_LINK_LEAF ? 2 : 0, 0);
+    cairo_move_to(cairo, at[0][0], at[0][1]);
+    cairo_curve_to(cairo, at[1][0], at[1][1], at[2][0], at[2][1], at[3][0], at[3][1]);
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, NULL, 0, 0);
+    double dx = at[3][0] - at[2][0], dy = at[3][1] - at[2][1], length = fmax(hypot(dx, dy), 1);
+    dx *= 6 / length, dy *= 6 / length;
+    cairo_move_to(cairo, at[3][0], at[3][1]);
+    cairo_line_to(cairo, at[3][0] - dx - 0.6 * dy, at[3][1] - dy + 0.6 * dx);
+    cairo_line_to(cairo, at[3][0] - dx + 0.6 * dy, at[3][1] - dy - 0.6 * dx);
+    cairo_fill(cairo);
+}
+
+// "207 k", short enough for a box.
+static char *short_count(uint64_t count) {
+    return count < 10000     ? g_strdup_printf("%" G_GUINT64_FORMAT, count)
+           : count < 1000000 ? g_strdup_printf("%.0f k", (double)count / 1e3)
+                             : g_strdup_printf("%.1f M", (double)count / 1e6);
+}
+
+static void draw_second(cairo_t *cairo, const graphene_rect_t *rect, const double colour[3],
+                        double strength) {
+    rounded(cairo, rect->origin.x + 4, rect->origin.y - 4, rect->size.width, rect->size.height, 7);
+    cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], 0.25 * strength);
+    cairo_fill_preserve(cairo);
+    cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], 0.5 * strength);
+    cairo_set_line_width(cairo, 1);
+    cairo_stroke(cairo);
+}
+
+static void draw_box(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index, const GdkRGBA *ink) {
+    const StudioBox *box = studio_graph_box(panel->graph, index);
+    graphene_rect_t rect = studio_graph_box_rect(panel, index);
+    double x = rect.origin.x, y = rect.origin.y, scale = studio_graph_scale(panel);
+    uint64_t *count = panel->counts == NULL ? NULL : g_hash_table_lookup(panel->counts, box->id);
+    bool is_chosen = box->element == panel->selected;
+    bool is_empty = count != NULL && *count == 0;
+    double colour[3], strength = box->is_enabled ? 1 : 0.4;
+    studio_component_colour(box->kind, colour);
+    if (box->is_recursive) { // drawn double: it follows upon itself
+        draw_second(cairo, &rect, colour, strength);
+    }
+    rounded(cairo, x, y, rect.size.width, rect.size.height, 7);
+    bool is_light_ink = ink->red > 0.5f;
+    double ground = is_light_ink ? 0.20 : 0.97;
+    cairo_set_source_rgb(cairo, ground, ground, ground + 0.01);
+    cairo_fill_preserve(cairo);
+    cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2],
+                          (is_chosen ? 0.45 : 0.2) * strength);
+    cairo_fill_preserve(cairo);
+    if (is_empty) {
+        cairo_set_source_rgb(cairo, 0.88, 0.22, 0.2);
+    } else if (is_chosen) {
+        cairo_set_source_rgb(cairo, 1.0, 0.62, 0.13);
+    } else {
+        cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], 0.75 * strength);
+    }
+    bool is_target = panel->drag != DRAG_NOTHING && panel->is_dragged && panel->over == index;
+    cairo_set_line_width(cairo, is_chosen || is_empty || is_target ? 2 : 1);
+    cairo_stroke(cairo);
+    cairo_save(cairo);
+    cairo_translate(cairo, x + 7 * scale, y + 9 * scale);
+    cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], strength);
+    studio_component_icon(cairo, box->kind, 18 * scale);
+    cairo_restore(cairo);
+    cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, strength);
+    text_at(panel, cairo, box->id, x + 30 * scale, y + 3 * scale, rect.size.width - 34 * scale,
+            12.5 * scale, true);
+    char *shown = !box->is_enabled ? g_strdup("off")
+                  : count == NULL  ? g_strdup(fr_pgraph_table(box->kind)->element)
+                                   : short_count(*count);
+    cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, 0.6 * strength);
+    text_at(panel, cairo, shown, x + 30 * scale, y + 18 * scale, rect.size.width - 34 * scale,
+            11 * scale, false);
+    g_free(shown);
+}
+
+static void draw_tools(StudioGraphPanel *panel, cairo_t *cairo, const GdkRGBA *ink) {
+    double top = studio_graph_tools_top(panel), colour[3];
+    bool is_light_ink = ink->red > 0.5f;
+    double ground = is_light_ink ? 0.14 : 0.92;
+    cairo_set_source_rgb(cairo, ground, ground, ground + 0.01);
+    cairo_rectangle(cairo, 0, top, gtk_widget_get_width(GTK_WIDGET(panel)),
+                    gtk_widget_get_height(GTK_WIDGET(panel)) - top);
+    cairo_fill(cairo);
+    cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, 0.55);
+    const char *tip = "Drag a component onto another";
+    uint32_t kind =
+        panel->drag == DRAG_NOTHING ? studio_graph_tool_under(panel, panel->x, panel->y) : FR_NONE;
+    text_at(panel, cairo, kind != FR_NONE ? fr_pgraph_table((FrComponentKind)kind)->element : tip,
+            TOOL_PAD + 2, top + 7, gtk_widget_get_width(GTK_WIDGET(panel)) - 2 * TOOL_PAD, 11.5,
+            false);
+    for (guint i = 1; i < FR_COMPONENT_COUNT; i++) {
+        graphene_rect_t rect = studio_graph_tool_rect(panel, i);
+        studio_component_colour((FrComponentKind)i, colour);
+        if (i == kind) {
+            rounded(cairo, rect.origin.x + 1, rect.origin.y + 1, TOOL - 2, TOOL - 2, 6);
+            cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, 0.12);
+            cairo_fill(cairo);
+        }
+        cairo_save(cairo);
+        cairo_translate(cairo, rect.origin.x + 7, rect.origin.y + 7);
+        cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
+        studio_component_icon(cairo, (FrComponentKind)i, 20);
+        cairo_restore(cairo);
+    }
+}
+
+// What is dragged, and what would come of it.
+static void draw_drag(StudioGraphPanel *panel, cairo_t *cairo) {
+    FrComponentKind kind = panel->drag == DRAG_TOOL
+                               ? (FrComponentKind)panel->held
+                               : studio_graph_box(panel->graph, panel->held)->kind;
+    double colour[3];
+    bool is_refused;
+    char *words = studio_graph_words_of_drop(panel, &is_refused);
+    studio_component_colour(kind, colour);
+    rounded(cairo, panel->x - 17, panel->y - 17, 34, 34, 7);
+    cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], 0.35);
+    cairo_fill(cairo);
+    cairo_save(cairo);
+    cairo_translate(cairo, panel->x - 10, panel->y - 10);
+    cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
+    studio_component_icon(cairo, kind, 20);
+    cairo_restore(cairo);
+    if (words != NULL) {
+        double width = fmin(gtk_widget_get_width(GTK_WIDGET(panel)) - 12,
+                            8 + 6.6 * (double)g_utf8_strlen(words, -1));
+        double x = CLAMP(panel->x - 0.5 * width, 6,
+                         fmax(6, gtk_widget_get_width(GTK_WIDGET(panel)) - width - 6));
+        rounded(cairo, x, panel->y + 22, width, 22, 6);
+        cairo_set_source_rgba(cairo, is_refused ? 0.75 : 0.1, 0.12, 0.12, 0.92);
+        cairo_fill(cairo);
+        cairo_set_source_rgb(cairo, 1, 1, 1);
+        text_at(panel, cairo, words, x + 8, panel->y + 25, width - 12, 12, false);
+    }
+    g_free(words);
+}
+
+void studio_graph_draw(StudioGraphPanel *panel, GtkSnapshot *snapshot) {
+    GtkWidget *widget = GTK_WIDGET(panel);
+    int width = gtk_widget_get_width(widget), height = gtk_widget_get_height(widget);
+    graphene_rect_t bounds = GRAPHENE_RECT_INIT(0, 0, (float)width, (float)height);
+    gtk_snapshot_push_clip(snapshot, &bounds);
+    cairo_t *cairo = gtk_snapshot_append_cairo(snapshot, &bounds);
+    GdkRGBA ink;
+    gtk_style_context_get_color(gtk_widget_get_style_context(widget), &ink);
+    for (guint i = 0; i < panel->graph->wires->len; i++) {
+        draw_wire(panel, cairo, studio_graph_wire(panel->graph, i), &ink);
+    }
+    for (guint i = 0; i < panel->graph->boxes->len; i++) {
+        draw_box(panel, cairo, i, &ink);
+    }
+    if (panel->graph->boxes->len == 0) {
+        cairo_set_source_rgba(cairo, ink.red, ink.green, ink.blue, 0.6);
+        text_at(panel, cairo, "This plant is not made of components", PAD, 2 * PAD, width - 2 * PAD,
+                13, false);
+    } else {
+        draw_tools(panel, cairo, &ink);
+    }
+    if (panel->is_dragged && (panel->drag == DRAG_TOOL || panel->drag == DRAG_BOX)) {
+        draw_drag(panel, cairo);
+    }
+    cairo_destroy(cairo);
+    gtk_snapshot_pop(snapshot);
+}

@@ -1,0 +1,293 @@
+#include "studio/graph_panel_private.h"
+
+#include "studio/model/builder.h"
+
+#include <math.h>
+#include <string.h>
+
+static guint selected_signal;
+
+G_DEFINE_TYPE(StudioGraphPanel, studio_graph_panel, GTK_TYPE_WIDGET)
+
+// ---- what a drop would do ----------------------------------------------------------------------
+
+static void drop(StudioGraphPanel *panel) {
+    const StudioBox *on =
+        panel->over == FR_NONE ? NULL : studio_graph_box(panel->graph, panel->over);
+    char *target = on == NULL ? NULL : g_strdup(on->id);
+    char *made = NULL;
+    if (panel->drag == DRAG_TOOL && panel->y < studio_graph_tools_top(panel)) {
+        studio_add_component(panel->document, panel->plant, (FrComponentKind)panel->held, target,
+                             &made);
+    } else if (panel->drag == DRAG_BOX && on != NULL) {
+        const StudioBox *held = studio_graph_box(panel->graph, panel->held);
+        made = g_strdup(held->id);
+        studio_add_link(panel->document, panel->plant, target, made,
+                        studio_likely_link(on->kind, held->kind));
+    }
+    uint32_t box = made == NULL ? FR_NONE : studio_graph_find(panel->graph, made);
+    if (box != FR_NONE) {
+        g_signal_emit(panel, selected_signal, 0, studio_graph_box(panel->graph, box)->element);
+    }
+    g_free(made);
+    g_free(target);
+}
+
+// ---- pointer -----------------------------------------------------------------------------------
+
+static void on_begin(GtkGestureDrag *gesture, double x, double y, StudioGraphPanel *panel) {
+    (void)gesture;
+    gtk_widget_grab_focus(GTK_WIDGET(panel));
+    panel->x = x;
+    panel->y = y;
+    panel->is_dragged = false;
+    panel->held = studio_graph_box_under(panel, x, y);
+    panel->drag = panel->held != FR_NONE ? DRAG_BOX : DRAG_CANVAS;
+    if (panel->held == FR_NONE && y > studio_graph_tools_top(panel)) {
+        panel->held = studio_graph_tool_under(panel, x, y);
+        panel->drag = panel->held != FR_NONE ? DRAG_TOOL : DRAG_NOTHING;
+    }
+}
+
+static void on_drag(GtkGestureDrag *gesture, double dx, double dy, StudioGraphPanel *panel) {
+    double x0, y0;
+    gtk_gesture_drag_get_start_point(gesture, &x0, &y0);
+    panel->is_dragged = panel->is_dragged || hypot(dx, dy) > CLICK;
+    if (panel->drag == DRAG_CANVAS && panel->is_dragged) {
+        panel->shift_x += x0 + dx - panel->x;
+        panel->shift_y += y0 + dy - panel->y;
+    }
+    panel->x = x0 + dx;
+    panel->y = y0 + dy;
+    panel->over = studio_graph_box_under(panel, panel->x, panel->y);
+    gtk_widget_queue_draw(GTK_WIDGET(panel));
+}
+
+static void click(StudioGraphPanel *panel) {
+    uint32_t element = FR_NONE;
+    if (panel->drag == DRAG_BOX) {
+        element = studio_graph_box(panel->graph, panel->held)->element;
+    } else if (panel->drag == DRAG_TOOL) {
+        // A click is the short way: on what is selected.
+        gtk_widget_activate_action(GTK_WIDGET(panel), "win.add", "s",
+                                   fr_pgraph_table((FrComponentKind)panel->held)->element);
+        return;
+    } else {
+        uint32_t wire = studio_graph_wire_under(panel, panel->x, panel->y);
+        element = wire == FR_NONE ? FR_NONE : studio_graph_wire(panel->graph, wire)->element;
+    }
+    g_signal_emit(panel, selected_signal, 0, element);
+}
+
+static void on_end(GtkGestureDrag *gesture, double dx, double dy, StudioGraphPanel *panel) {
+    (void)gesture;
+    (void)dx;
+    (void)dy;
+    DragKind drag = panel->drag;
+    if (panel->document == NULL || drag == DRAG_NOTHING) {
+        return;
+    }
+    if (!panel->is_dragged) {
+        click(panel);
+    } else if (drag != DRAG_CANVAS) {
+        drop(panel);
+    }
+    panel->drag = DRAG_NOTHING;
+    panel->over = FR_NONE;
+    gtk_widget_queue_draw(GTK_WIDGET(panel));
+}
+
+static void on_menu(GtkGestureClick *gesture, int count, double x, double y,
+                    StudioGraphPanel *panel) {
+    (void)gesture;
+    (void)count;
+    uint32_t box = studio_graph_box_under(panel, x, y);
+    if (box != FR_NONE) {
+        g_signal_emit(panel, selected_signal, 0, studio_graph_box(panel->graph, box)->element);
+        GdkRectangle at = {(int)x, (int)y, 1, 1};
+        gtk_popover_set_pointing_to(GTK_POPOVER(panel->menu), &at);
+        gtk_popover_popup(GTK_POPOVER(panel->menu));
+    }
+}
+
+// ---- keys --------------------------------------------------------------------------------------
+
+static uint32_t selected_box(StudioGraphPanel *panel) {
+    for (guint i = 0; i < panel->graph->boxes->len; i++) {
+        if (studio_graph_box(panel->graph, i)->element == panel->selected) {
+            return i;
+        }
+    }
+    return FR_NONE;
+}
+
+// The nearest box in a direction.
+static uint32_t neighbour(StudioGraphPanel *panel, uint32_t from, double dx, double dy) {
+    const StudioBox *here = studio_graph_box(panel->graph, from);
+    uint32_t best = FR_NONE;
+    double nearest = INFINITY;
+    for (guint i = 0; i < panel->graph->boxes->len; i++) {
+        const StudioBox *box = studio_graph_box(panel->graph, i);
+        double x = box->column - here->column, y = box->row - here->row;
+        double ahead = x * dx + y * dy, aside = fabs(x * dy) + fabs(y * dx);
+        if (ahead > 0.1 && ahead + 2 * aside < nearest) {
+            nearest = ahead + 2 * aside;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkModifierType state,
+                       StudioGraphPanel *panel) {
+    (void)keys;
+    (void)code;
+    (void)state;
+    if (key == GDK_KEY_Delete || key == GDK_KEY_BackSpace) {
+        return gtk_widget_activate_action(GTK_WIDGET(panel), "win.remove", NULL);
+    }
+    double dx = key == GDK_KEY_Right ? 1 : key == GDK_KEY_Left ? -1 : 0;
+    double dy = key == GDK_KEY_Down ? 1 : key == GDK_KEY_Up ? -1 : 0;
+    if ((dx == 0 && dy == 0) || panel->graph->boxes->len == 0) {
+        return FALSE;
+    }
+    uint32_t from = selected_box(panel);
+    uint32_t to = from == FR_NONE ? 0 : neighbour(panel, from, dx, dy);
+    if (to != FR_NONE) {
+        g_signal_emit(panel, selected_signal, 0, studio_graph_box(panel->graph, to)->element);
+    }
+    return TRUE;
+}
+
+static void studio_graph_panel_snapshot(GtkWidget *widget, GtkSnapshot *snapshot) {
+    studio_graph_draw(STUDIO_GRAPH_PANEL(widget), snapshot);
+}
+
+static void on_motion(GtkEventControllerMotion *motion, double x, double y,
+                      StudioGraphPanel *panel) {
+    (void)motion;
+    panel->x = x;
+    panel->y = y;
+    gtk_widget_queue_draw(GTK_WIDGET(panel));
+}
+
+// ---- showing -----------------------------------------------------------------------------------
+
+void studio_graph_panel_show(StudioGraphPanel *panel, StudioDocument *document, uint32_t plant,
+                             uint32_t selected) {
+    if (panel->document != document) {
+        g_clear_pointer(&panel->counts, g_hash_table_unref);
+        panel->shift_x = panel->shift_y = 0;
+    }
+    panel->document = document;
+    panel->plant = plant;
+    panel->selected = selected;
+    studio_graph_free(panel->graph);
+    panel->graph = studio_graph_new(studio_document_contents(document), plant);
+    gtk_widget_queue_draw(GTK_WIDGET(panel));
+}
+
+void studio_graph_panel_set_counts(StudioGraphPanel *panel, const GArray *counts) {
+    const FrContents *contents = studio_document_contents(panel->document);
+    const char *plant = panel->plant == FR_NONE ? NULL : fr_contents_at(contents, panel->plant)->id;
+    g_clear_pointer(&panel->counts, g_hash_table_unref);
+    panel->counts = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
+    for (guint i = 0; i < counts->len; i++) {
+        const StudioCount *count = &g_array_index(counts, StudioCount, i);
+        if (g_strcmp0(count->plant, plant) == 0) {
+            g_hash_table_insert(panel->counts, g_strdup(count->component),
+                                g_memdup2(&count->instances, sizeof count->instances));
+        }
+    }
+    gtk_widget_queue_draw(GTK_WIDGET(panel));
+}
+
+gboolean studio_graph_panel_where(StudioGraphPanel *panel, const char *name, graphene_rect_t *box) {
+    if (g_str_has_prefix(name, "box:")) {
+        uint32_t found = studio_graph_find(panel->graph, name + strlen("box:"));
+        *box = found == FR_NONE ? *box : studio_graph_box_rect(panel, found);
+        return found != FR_NONE;
+    }
+    for (guint kind = 1; g_str_has_prefix(name, "tool:") && kind < FR_COMPONENT_COUNT; kind++) {
+        if (strcmp(fr_pgraph_table((FrComponentKind)kind)->element, name + 5) == 0) {
+            *box = studio_graph_tool_rect(panel, kind);
+            return TRUE;
+        }
+    }
+    return FALSE;
+}
+
+// ---- life --------------------------------------------------------------------------------------
+
+static void studio_graph_panel_dispose(GObject *object) {
+    StudioGraphPanel *panel = STUDIO_GRAPH_PANEL(object);
+    g_clear_pointer(&panel->menu, gtk_widget_unparent);
+    g_clear_pointer(&panel->graph, studio_graph_free);
+    g_clear_pointer(&panel->counts, g_hash_table_unref);
+    G_OBJECT_CLASS(studio_graph_panel_parent_class)->dispose(object);
+}
+
+static void studio_graph_panel_allocate(GtkWidget *widget, int width, int height, int baseline) {
+    (void)width;
+    (void)height;
+    (void)baseline;
+    gtk_popover_present(GTK_POPOVER(STUDIO_GRAPH_PANEL(widget)->menu));
+}
+
+static void studio_graph_panel_class_init(StudioGraphPanelClass *class) {
+    GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+    G_OBJECT_CLASS(class)->dispose = studio_graph_panel_dispose;
+    widget->snapshot = studio_graph_panel_snapshot;
+    widget->size_allocate = studio_graph_panel_allocate;
+    gtk_widget_class_set_css_name(widget, "graphpanel");
+    selected_signal = g_signal_new("selected", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL,
+                                   NULL, NULL, G_TYPE_NONE, 1, G_TYPE_UINT);
+}
+
+static void add_controllers(StudioGraphPanel *panel) {
+    GtkWidget *widget = GTK_WIDGET(panel);
+    GtkGesture *drag = gtk_gesture_drag_new();
+    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_begin), panel);
+    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag), panel);
+    g_signal_connect(drag, "drag-end", G_CALLBACK(on_end), panel);
+    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(drag));
+    GtkGesture *menu = gtk_gesture_click_new();
+    gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(menu), GDK_BUTTON_SECONDARY);
+    g_signal_connect(menu, "pressed", G_CALLBACK(on_menu), panel);
+    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(menu));
+    GtkEventController *keys = gtk_event_controller_key_new();
+    g_signal_connect(keys, "key-pressed", G_CALLBACK(on_key), panel);
+    gtk_widget_add_controller(widget, keys);
+    GtkEventController *motion = gtk_event_controller_motion_new();
+    g_signal_connect(motion, "motion", G_CALLBACK(on_motion), panel);
+    gtk_widget_add_controller(widget, motion);
+}
+
+static void studio_graph_panel_init(StudioGraphPanel *panel) {
+    static const char *const items[][2] = {{"Duplicate", "win.duplicate"},
+                                           {"Enable or Disable", "win.toggle-enabled"},
+                                           {"Remove", "win.remove"}};
+    GtkWidget *widget = GTK_WIDGET(panel);
+    panel->plant = panel->selected = panel->over = FR_NONE;
+    panel->graph = g_new0(StudioGraph, 1);
+    panel->graph->boxes = g_array_new(FALSE, FALSE, sizeof(StudioBox));
+    panel->graph->wires = g_array_new(FALSE, FALSE, sizeof(StudioWire));
+    GMenu *menu = g_menu_new();
+    for (size_t i = 0; i < G_N_ELEMENTS(items); i++) {
+        g_menu_append(menu, items[i][0], items[i][1]);
+    }
+    panel->menu = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
+    gtk_popover_set_has_arrow(GTK_POPOVER(panel->menu), FALSE);
+    gtk_widget_set_parent(panel->menu, widget);
+    g_object_unref(menu);
+    gtk_widget_set_focusable(widget, TRUE);
+    gtk_widget_set_hexpand(widget, TRUE);
+    gtk_widget_set_vexpand(widget, TRUE);
+    gtk_accessible_update_property(GTK_ACCESSIBLE(panel), GTK_ACCESSIBLE_PROPERTY_LABEL,
+                                   "Graph of components", -1);
+    add_controllers(panel);
+}
+
+GtkWidget *studio_graph_panel_new(void) {
+    return g_object_new(STUDIO_TYPE_GRAPH_PANEL, NULL);
+}

@@ -1,0 +1,58 @@
+/// @file graph_panel_private.h
+/// What the files of the graph panel share.
+#pragma once
+
+#include "studio/component_icon.h"
+#include "studio/graph_panel.h"
+#include "studio/model/commands.h"
+#include "studio/model/graph.h"
+
+enum {
+    BOX_WIDTH = 92,
+    BOX_HEIGHT = 36,
+    GAP_X = 14,
+    GAP_Y = 34,
+    PAD = 16,
+    TOOL = 34,
+    TOOL_PAD = 10,
+    CLICK = 5,
+    WIRE_GRAB = 7,
+};
+
+typedef enum DragKind { DRAG_NOTHING, DRAG_TOOL, DRAG_BOX, DRAG_CANVAS } DragKind;
+
+struct _StudioGraphPanel {
+    GtkWidget parent;
+    StudioDocument *document; // borrowed
+    uint32_t plant;
+    uint32_t selected; // element
+    StudioGraph *graph;
+    GHashTable *counts;      // id → instances; NULL: not known
+    double shift_x, shift_y; // of the graph within the panel
+    DragKind drag;
+    uint32_t held;   // tool or box
+    bool is_dragged; // it is no click
+    double x, y;     // pointer
+    uint32_t over;   // box under the pointer, FR_NONE
+    GtkWidget *menu;
+};
+
+// graph_places.c
+
+double studio_graph_tools_top(StudioGraphPanel *panel);
+graphene_rect_t studio_graph_tool_rect(StudioGraphPanel *panel, guint kind);
+/// How much smaller than it is meant to be the graph is drawn.
+double studio_graph_scale(StudioGraphPanel *panel);
+graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t box);
+/// The ends of a wire, and its two bends between them.
+void studio_graph_wire_course(StudioGraphPanel *panel, const StudioWire *wire, double at[4][2]);
+// What is under a point: FR_NONE where there is nothing.
+uint32_t studio_graph_box_under(StudioGraphPanel *panel, double x, double y);
+uint32_t studio_graph_tool_under(StudioGraphPanel *panel, double x, double y);
+uint32_t studio_graph_wire_under(StudioGraphPanel *panel, double x, double y);
+/// What would come of a drop here, in words; NULL: nothing. Free with g_free().
+char *studio_graph_words_of_drop(StudioGraphPanel *panel, bool *is_refused);
+
+// graph_draw.c
+
+void studio_graph_draw(StudioGraphPanel *panel, GtkSnapshot *snapshot);

@@ -1,0 +1,137 @@
+/// Where things are in the graph panel.
+#include "studio/graph_panel_private.h"
+
+#include <math.h>
+
+static int width_of(StudioGraphPanel *panel) {
+    return gtk_widget_get_width(GTK_WIDGET(panel));
+}
+
+static guint tools_in_row(StudioGraphPanel *panel) {
+    return (guint)MAX(1, (width_of(panel) - 2 * TOOL_PAD) / TOOL);
+}
+
+double studio_graph_tools_top(StudioGraphPanel *panel) {
+    guint rows = (FR_COMPONENT_COUNT - 2) / tools_in_row(panel) + 1;
+    return gtk_widget_get_height(GTK_WIDGET(panel)) - (double)rows * TOOL - 2.0 * TOOL_PAD - 18;
+}
+
+// Tools are all kinds but the camera, which every graph has.
+graphene_rect_t studio_graph_tool_rect(StudioGraphPanel *panel, guint kind) {
+    guint place = kind - 1, in_row = tools_in_row(panel);
+    return GRAPHENE_RECT_INIT(
+        (float)(TOOL_PAD + place % in_row * TOOL),
+        (float)(studio_graph_tools_top(panel) + TOOL_PAD + 18 + place / in_row * TOOL), TOOL, TOOL);
+}
+
+double studio_graph_scale(StudioGraphPanel *panel) {
+    double wanted = panel->graph->columns * (BOX_WIDTH + GAP_X) - GAP_X + 2 * PAD;
+    double high = panel->graph->rows * (BOX_HEIGHT + GAP_Y) - GAP_Y + 2 * PAD;
+    double fit =
+        fmin(width_of(panel) / fmax(wanted, 1), studio_graph_tools_top(panel) / fmax(high, 1));
+    return CLAMP(fit, 0.62, 1);
+}
+
+graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t index) {
+    const StudioBox *box = studio_graph_box(panel->graph, index);
+    double scale = studio_graph_scale(panel);
+    double whole = (panel->graph->columns * (BOX_WIDTH + GAP_X) - GAP_X) * scale;
+    double left = whole < width_of(panel) - 2 * PAD ? 0.5 * (width_of(panel) - whole) : PAD;
+    return GRAPHENE_RECT_INIT(
+        (float)(left + box->column * (BOX_WIDTH + GAP_X) * scale + panel->shift_x),
+        (float)(PAD + box->row * (BOX_HEIGHT + GAP_Y) * scale + panel->shift_y),
+        (float)(BOX_WIDTH * scale), (float)(BOX_HEIGHT * scale));
+}
+
+static bool is_within(const graphene_rect_t *rect, double x, double y) {
+    graphene_point_t point = GRAPHENE_POINT_INIT((float)x, (float)y);
+    return graphene_rect_contains_point(rect, &point);
+}
+
+uint32_t studio_graph_box_under(StudioGraphPanel *panel, double x, double y) {
+    for (guint i = 0; y < studio_graph_tools_top(panel) && i < panel->graph->boxes->len; i++) {
+        graphene_rect_t rect = studio_graph_box_rect(panel, i);
+        if (is_within(&rect, x, y)) {
+            return i;
+        }
+    }
+    return FR_NONE;
+}
+
+uint32_t studio_graph_tool_under(StudioGraphPanel *panel, double x, double y) {
+    for (guint kind = 1; kind < FR_COMPONENT_COUNT; kind++) {
+        graphene_rect_t rect = studio_graph_tool_rect(panel, kind);
+        if (is_within(&rect, x, y)) {
+            return kind;
+        }
+    }
+    return FR_NONE;
+}
+
+// The ends of a wire, and its two bends.
+void studio_graph_wire_course(StudioGraphPanel *panel, const StudioWire *wire, double at[4][2]) {
+    graphene_rect_t from = studio_graph_box_rect(panel, wire->from),
+                    to = studio_graph_box_rect(panel, wire->to);
+    double scale = studio_graph_scale(panel);
+    if (wire->from == wire->to || !wire->is_tree) { // out at the right and back from there
+        double right = from.origin.x + from.size.width, other = to.origin.x + to.size.width;
+        double bulge = (wire->from == wire->to ? 16 : 34) * scale;
+        at[0][0] = right, at[0][1] = from.origin.y + 0.72 * from.size.height;
+        at[3][0] = other, at[3][1] = to.origin.y + 0.28 * to.size.height;
+        at[1][0] = right + bulge, at[1][1] = at[0][1];
+        at[2][0] = other + bulge, at[2][1] = at[3][1];
+        return;
+    }
+    double bend = 0.5 * GAP_Y * scale;
+    at[0][0] = from.origin.x + 0.5 * from.size.width, at[0][1] = from.origin.y + from.size.height;
+    at[3][0] = to.origin.x + 0.5 * to.size.width, at[3][1] = to.origin.y;
+    at[1][0] = at[0][0], at[1][1] = at[0][1] + bend;
+    at[2][0] = at[3][0], at[2][1] = at[3][1] - bend;
+}
+
+uint32_t studio_graph_wire_under(StudioGraphPanel *panel, double x, double y) {
+    for (guint i = 0; i < panel->graph->wires->len; i++) {
+        double at[4][2];
+        studio_graph_wire_course(panel, studio_graph_wire(panel->graph, i), at);
+        for (int k = 0; k <= 24; k++) {
+            double t = k / 24.0, s = 1 - t;
+            double w[] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+            double px = 0, py = 0;
+            for (int j = 0; j < 4; j++) {
+                px += w[j] * at[j][0];
+                py += w[j] * at[j][1];
+            }
+            if (hypot(px - x, py - y) < WIRE_GRAB) {
+                return i;
+            }
+        }
+    }
+    return FR_NONE;
+}
+
+// In words, with whether it can be done; NULL: nothing.
+char *studio_graph_words_of_drop(StudioGraphPanel *panel, bool *is_refused) {
+    *is_refused = false;
+    if (panel->over == FR_NONE) {
+        return panel->drag == DRAG_TOOL && panel->y < studio_graph_tools_top(panel)
+                   ? g_strdup("not linked yet")
+                   : NULL;
+    }
+    const StudioBox *on = studio_graph_box(panel->graph, panel->over);
+    FrComponentKind kind = panel->drag == DRAG_TOOL
+                               ? (FrComponentKind)panel->held
+                               : studio_graph_box(panel->graph, panel->held)->kind;
+    if (panel->drag == DRAG_BOX) {
+        const char *refusal = studio_link_refusal(panel->document, panel->plant, on->id,
+                                                  studio_graph_box(panel->graph, panel->held)->id);
+        if (refusal != NULL) {
+            *is_refused = true;
+            return g_strdup(refusal);
+        }
+        if (panel->over == panel->held) {
+            return g_strdup("repeated upon itself");
+        }
+    }
+    return g_strdup_printf("%s of %s",
+                           studio_link_words(studio_likely_link(on->kind, kind), on->kind), on->id);
+}

@@ -1,0 +1,114 @@
+#include "studio/model/camera.h"
+
+#include <glib.h>
+
+#include <math.h>
+
+static const double highest = 89.0 * G_PI / 180.0;
+static const double nearest = 0.001, farthest = 100000.0;
+
+StudioCamera studio_camera_default(void) {
+    return (StudioCamera){.target = {0, 0, 0.5},
+                          .distance = 4,
+                          .azimuth = -30 * G_PI / 180,
+                          .elevation = 10 * G_PI / 180,
+                          .field_of_view = 35 * G_PI / 180};
+}
+
+void studio_camera_frame(StudioCamera *camera, const double min[3], const double max[3],
+                         double aspect) {
+    double radius = 0;
+    for (int i = 0; i < 3; i++) {
+        bool is_empty = !(max[i] >= min[i]);
+        camera->target[i] = is_empty ? 0 : 0.5 * (min[i] + max[i]);
+        radius += is_empty ? 0 : 0.25 * (max[i] - min[i]) * (max[i] - min[i]);
+    }
+    radius = radius > 1e-12 ? sqrt(radius) : 1;
+    double half = 0.5 * camera->field_of_view;
+    double narrow = aspect < 1 ? atan(tan(half) * aspect) : half;
+    camera->distance = CLAMP(1.02 * radius / sin(narrow), nearest, farthest);
+}
+
+void studio_camera_orbit(StudioCamera *camera, double azimuth, double elevation) {
+    camera->azimuth = remainder(camera->azimuth + azimuth, 2 * G_PI);
+    camera->elevation = CLAMP(camera->elevation + elevation, -highest, highest);
+}
+
+// Unit vectors to the right, upwards and towards the camera.
+static void axes_of(const StudioCamera *camera, double right[3], double up[3], double back[3]) {
+    double ca = cos(camera->azimuth), sa = sin(camera->azimuth);
+    double ce = cos(camera->elevation), se = sin(camera->elevation);
+    right[0] = ca, right[1] = sa, right[2] = 0;
+    back[0] = sa * ce, back[1] = -ca * ce, back[2] = se;
+    up[0] = -sa * se, up[1] = ca * se, up[2] = ce;
+}
+
+void studio_camera_pan(StudioCamera *camera, double right, double up) {
+    double x[3], y[3], z[3];
+    axes_of(camera, x, y, z);
+    double height = 2 * camera->distance * tan(0.5 * camera->field_of_view);
+    for (int i = 0; i < 3; i++) {
+        camera->target[i] += height * (right * x[i] + up * y[i]);
+    }
+}
+
+void studio_camera_zoom(StudioCamera *camera, double factor) {
+    camera->distance = CLAMP(camera->distance * factor, nearest, farthest);
+}
+
+void studio_camera_eye(const StudioCamera *camera, double eye[3]) {
+    double x[3], y[3], z[3];
+    axes_of(camera, x, y, z);
+    for (int i = 0; i < 3; i++) {
+        eye[i] = camera->target[i] + camera->distance * z[i];
+    }
+}
+
+mat4s studio_camera_view(const StudioCamera *camera) {
+    double x[3], y[3], z[3], eye[3];
+    axes_of(camera, x, y, z);
+    studio_camera_eye(camera, eye);
+    mat4s view = GLMS_MAT4_IDENTITY;
+    double move[3] = {0, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        view.raw[i][0] = (float)x[i];
+        view.raw[i][1] = (float)y[i];
+        view.raw[i][2] = (float)z[i];
+        move[0] -= x[i] * eye[i];
+        move[1] -= y[i] * eye[i];
+        move[2] -= z[i] * eye[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        view.raw[3][i] = (float)move[i];
+    }
+    return view;
+}
+
+mat4s studio_camera_projection(const StudioCamera *camera, double aspect, double radius) {
+    double far = camera->distance + 2 * radius + 4 * camera->distance;
+    double near = fmax(camera->distance - radius, 0.01 * camera->distance);
+    return glms_perspective((float)camera->field_of_view, (float)aspect, (float)(0.5 * near),
+                            (float)far);
+}
+
+void studio_camera_ray(const StudioCamera *camera, double aspect, double x, double y,
+                       double origin[3], double direction[3]) {
+    double right[3], up[3], back[3], length = 0;
+    axes_of(camera, right, up, back);
+    studio_camera_eye(camera, origin);
+    double half = tan(0.5 * camera->field_of_view);
+    for (int i = 0; i < 3; i++) {
+        direction[i] = -back[i] + half * (aspect * x * right[i] + y * up[i]);
+        length += direction[i] * direction[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        direction[i] /= sqrt(length);
+    }
+}
+
+double studio_camera_step(const StudioCamera *camera, double part) {
+    double wanted = 2 * part * camera->distance * tan(0.5 * camera->field_of_view);
+    double power = pow(10, floor(log10(wanted)));
+    double rest = wanted / power;
+    return power * (rest >= 5 ? 5 : rest >= 2 ? 2 : 1);
+}

@@ -1,0 +1,36 @@
+/// @file camera.h
+/// Where the view is seen from: a point that is looked at, a distance and two angles. z is up.
+#pragma once
+
+#include "frond/vector.h"
+
+#include <cglm/struct.h>
+
+typedef struct StudioCamera {
+    double target[3];
+    double distance;      ///< m, > 0
+    double azimuth;       ///< radians about the vertical, from −y
+    double elevation;     ///< radians above the horizon
+    double field_of_view; ///< radians, of the height
+} StudioCamera;
+
+StudioCamera studio_camera_default(void);
+/// Shows all of a box at a width over height of `aspect`; a box without size gets a metre.
+void studio_camera_frame(StudioCamera *camera, const double min[3], const double max[3],
+                         double aspect);
+/// Turns about the target; the elevation stays short of the poles.
+void studio_camera_orbit(StudioCamera *camera, double azimuth, double elevation);
+/// Moves target and camera by parts of the picture's height.
+void studio_camera_pan(StudioCamera *camera, double right, double up);
+/// Multiplies the distance; it stays between a millimetre and 100 km.
+void studio_camera_zoom(StudioCamera *camera, double factor);
+/// Where the camera stands.
+void studio_camera_eye(const StudioCamera *camera, double eye[3]);
+mat4s studio_camera_view(const StudioCamera *camera);
+/// `radius` about the target is certainly between the planes.
+mat4s studio_camera_projection(const StudioCamera *camera, double aspect, double radius);
+/// The ray through a point of the picture: x from −1 at the left to 1, y from −1 at the bottom.
+void studio_camera_ray(const StudioCamera *camera, double aspect, double x, double y,
+                       double origin[3], double direction[3]);
+/// A step of 1, 2 or 5 times a power of ten that is about `part` of the height of the picture.
+double studio_camera_step(const StudioCamera *camera, double part);

@@ -1,0 +1,59 @@
+#include "studio/model/place.h"
+
+#include <string.h>
+
+static char *step_of(const FrContents *contents, uint32_t element) {
+    const FrContentsElement *at = fr_contents_at(contents, element);
+    if (at->id != NULL) {
+        return g_strdup_printf("%s:%s", at->name, at->id);
+    }
+    uint32_t number = 0;
+    uint32_t first = at->parent == FR_NONE ? element : fr_contents_at(contents, at->parent)->first;
+    for (uint32_t i = first; i != element; i = fr_contents_at(contents, i)->next) {
+        number += strcmp(fr_contents_at(contents, i)->name, at->name) == 0;
+    }
+    return number == 0 ? g_strdup(at->name) : g_strdup_printf("%s#%u", at->name, number);
+}
+
+char *studio_place_of(const FrContents *contents, uint32_t element) {
+    char *place = step_of(contents, element);
+    for (uint32_t i = fr_contents_at(contents, element)->parent; i != FR_NONE;
+         i = fr_contents_at(contents, i)->parent) {
+        char *step = step_of(contents, i);
+        char *longer = g_strconcat(step, "/", place, NULL);
+        g_free(step);
+        g_free(place);
+        place = longer;
+    }
+    return place;
+}
+
+uint32_t studio_place_find(const FrContents *contents, const char *place) {
+    if (contents == NULL || place == NULL) {
+        return FR_NONE;
+    }
+    char **steps = g_strsplit(place, "/", -1);
+    uint32_t found = FR_NONE, among = 0;
+    for (char **step = steps; *step != NULL; step++) {
+        found = FR_NONE;
+        for (uint32_t i = among; i != FR_NONE && found == FR_NONE;
+             i = fr_contents_at(contents, i)->next) {
+            char *own = step_of(contents, i);
+            found = strcmp(own, *step) == 0 ? i : FR_NONE;
+            g_free(own);
+        }
+        if (found == FR_NONE) {
+            break;
+        }
+        among = fr_contents_at(contents, found)->first;
+    }
+    g_strfreev(steps);
+    return found;
+}
+
+uint32_t studio_place_plant(const FrContents *contents, uint32_t element) {
+    while (element != FR_NONE && strcmp(fr_contents_at(contents, element)->name, "plant") != 0) {
+        element = fr_contents_at(contents, element)->parent;
+    }
+    return element;
+}

@@ -1,0 +1,8 @@
+/// @file picture.h
+/// Pictures of what is on the screen.
+#pragma once
+
+#include <gtk/gtk.h>
+
+/// Writes a PNG of a widget as it looks now. False if it cannot.
+gboolean studio_picture_save(GtkWidget *widget, const char *path);

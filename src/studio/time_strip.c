@@ -1,0 +1,198 @@
+#include "studio/time_strip.h"
+
+#include "studio/model/commands.h"
+#include "studio/model/place.h"
+#include "studio/model/values.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct _StudioTimeStrip {
+    GtkBox parent;
+    StudioDocument *document; // borrowed
+    char *lsystem;            // place of the <lsystem>; NULL: the clock is shown
+    gboolean is_showing, is_running, is_moved;
+    GtkWidget *stack, *play, *scale, *span, *years, *back, *steps;
+};
+
+enum { FRAMES = 120 }; // from the beginning of the scale to its end
+
+static guint time_signal;
+
+G_DEFINE_TYPE(StudioTimeStrip, studio_time_strip, GTK_TYPE_BOX)
+
+// ---- the clock ---------------------------------------------------------------------------------
+
+static void show_years(StudioTimeStrip *strip) {
+    double years = gtk_range_get_value(GTK_RANGE(strip->scale));
+    char *text =
+        strip->is_moved ? g_strdup_printf("%.2f years", years) : g_strdup("as the document says");
+    gtk_label_set_text(GTK_LABEL(strip->years), text);
+    gtk_widget_set_sensitive(strip->back, strip->is_moved);
+    g_free(text);
+}
+
+static void on_scale(GtkRange *range, StudioTimeStrip *strip) {
+    if (!strip->is_showing) {
+        strip->is_moved = TRUE;
+        show_years(strip);
+        g_signal_emit(strip, time_signal, 0, gtk_range_get_value(range));
+    }
+}
+
+static void stop(StudioTimeStrip *strip) {
+    strip->is_running = FALSE;
+    gtk_button_set_icon_name(GTK_BUTTON(strip->play), "media-playback-start-symbolic");
+}
+
+static void on_back(GtkButton *button, StudioTimeStrip *strip) {
+    (void)button;
+    stop(strip);
+    strip->is_moved = FALSE;
+    strip->is_showing = TRUE;
+    gtk_range_set_value(GTK_RANGE(strip->scale), 0);
+    strip->is_showing = FALSE;
+    show_years(strip);
+    g_signal_emit(strip, time_signal, 0, NAN);
+}
+
+static void on_span(GtkSpinButton *spin, StudioTimeStrip *strip) {
+    double span = gtk_spin_button_get_value(spin);
+    gtk_range_set_range(GTK_RANGE(strip->scale), 0, span);
+    gtk_range_set_increments(GTK_RANGE(strip->scale), span / 100, span / 10);
+}
+
+void studio_time_strip_continue(StudioTimeStrip *strip) {
+    if (!strip->is_running) {
+        return;
+    }
+    double span = gtk_spin_button_get_value(GTK_SPIN_BUTTON(strip->span));
+    double next = gtk_range_get_value(GTK_RANGE(strip->scale)) + span / FRAMES;
+    if (next >= span) {
+        stop(strip);
+    }
+    gtk_range_set_value(GTK_RANGE(strip->scale), fmin(next, span));
+}
+
+static void on_play(GtkButton *button, StudioTimeStrip *strip) {
+    if (strip->is_running) {
+        stop(strip);
+        return;
+    }
+    double span = gtk_spin_button_get_value(GTK_SPIN_BUTTON(strip->span));
+    if (gtk_range_get_value(GTK_RANGE(strip->scale)) >= span) {
+        gtk_range_set_value(GTK_RANGE(strip->scale), 0);
+    }
+    strip->is_running = TRUE;
+    gtk_button_set_icon_name(button, "media-playback-pause-symbolic");
+    studio_time_strip_continue(strip);
+}
+
+// ---- steps -------------------------------------------------------------------------------------
+
+static void on_steps(GtkSpinButton *spin, StudioTimeStrip *strip) {
+    uint32_t element = studio_place_find(studio_document_contents(strip->document), strip->lsystem);
+    if (!strip->is_showing && element != FR_NONE) {
+        char text[16];
+        g_snprintf(text, sizeof text, "%d", gtk_spin_button_get_value_as_int(spin));
+        studio_set(strip->document, element, "steps", text, true);
+    }
+}
+
+static void show_steps(StudioTimeStrip *strip, uint32_t element) {
+    char *steps = fr_contents_get(studio_document_contents(strip->document), element, "steps");
+    double value = -1;
+    gboolean is_given = steps != NULL && studio_value_is_number(steps, &value);
+    strip->is_showing = TRUE;
+    gtk_spin_button_set_value(GTK_SPIN_BUTTON(strip->steps), is_given ? value : -1);
+    strip->is_showing = FALSE;
+    g_free(steps);
+}
+
+void studio_time_strip_show(StudioTimeStrip *strip, StudioDocument *document, uint32_t plant) {
+    const FrContents *contents = studio_document_contents(document);
+    strip->document = document;
+    uint32_t element = plant == FR_NONE ? FR_NONE : fr_contents_child(contents, plant, "lsystem");
+    g_free(strip->lsystem);
+    strip->lsystem = element == FR_NONE ? NULL : studio_place_of(contents, element);
+    if (element != FR_NONE) {
+        show_steps(strip, element);
+    }
+    gtk_stack_set_visible_child_name(GTK_STACK(strip->stack),
+                                     element != FR_NONE ? "steps" : "clock");
+}
+
+// ---- life --------------------------------------------------------------------------------------
+
+static GtkWidget *make_clock(StudioTimeStrip *strip) {
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+    strip->play = gtk_button_new_from_icon_name("media-playback-start-symbolic");
+    gtk_widget_add_css_class(strip->play, "flat");
+    gtk_widget_set_tooltip_text(strip->play, "Let the clock run");
+    gtk_accessible_update_property(GTK_ACCESSIBLE(strip->play), GTK_ACCESSIBLE_PROPERTY_LABEL,
+                                   "Let the clock run", -1);
+    g_signal_connect(strip->play, "clicked", G_CALLBACK(on_play), strip);
+    strip->scale = gtk_scale_new_with_range(GTK_ORIENTATION_HORIZONTAL, 0, 10, 0.1);
+    gtk_scale_set_draw_value(GTK_SCALE(strip->scale), FALSE);
+    gtk_widget_set_hexpand(strip->scale, TRUE);
+    gtk_widget_set_name(strip->scale, "clock");
+    gtk_accessible_update_property(GTK_ACCESSIBLE(strip->scale), GTK_ACCESSIBLE_PROPERTY_LABEL,
+                                   "Time of the plants in years", -1);
+    g_signal_connect(strip->scale, "value-changed", G_CALLBACK(on_scale), strip);
+    strip->years = gtk_label_new("");
+    gtk_label_set_width_chars(GTK_LABEL(strip->years), 19);
+    gtk_widget_add_css_class(strip->years, "numeric");
+    strip->span = gtk_spin_button_new_with_range(1, 1000, 1);
+    gtk_spin_button_set_value(GTK_SPIN_BUTTON(strip->span), 10);
+    gtk_widget_set_tooltip_text(strip->span, "Years from end to end");
+    g_signal_connect(strip->span, "value-changed", G_CALLBACK(on_span), strip);
+    strip->back = gtk_button_new_from_icon_name("edit-clear-symbolic");
+    gtk_widget_add_css_class(strip->back, "flat");
+    gtk_widget_set_tooltip_text(strip->back, "Show the time that the document says");
+    g_signal_connect(strip->back, "clicked", G_CALLBACK(on_back), strip);
+    GtkWidget *parts[] = {strip->play, strip->scale, strip->years, strip->back, strip->span};
+    for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) {
+        gtk_widget_set_valign(parts[i], GTK_ALIGN_CENTER);
+        gtk_box_append(GTK_BOX(box), parts[i]);
+    }
+    return box;
+}
+
+static GtkWidget *make_steps(StudioTimeStrip *strip) {
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+    GtkWidget *name = gtk_label_new("Steps of the L-system");
+    strip->steps = gtk_spin_button_new_with_range(-1, 100000, 1);
+    gtk_widget_set_tooltip_text(strip->steps, "-1: as many as its text says");
+    gtk_widget_set_name(strip->steps, "steps");
+    gtk_accessible_update_property(GTK_ACCESSIBLE(strip->steps), GTK_ACCESSIBLE_PROPERTY_LABEL,
+                                   "Steps of the L-system", -1);
+    g_signal_connect(strip->steps, "value-changed", G_CALLBACK(on_steps), strip);
+    gtk_box_append(GTK_BOX(box), name);
+    gtk_box_append(GTK_BOX(box), strip->steps);
+    return box;
+}
+
+static void studio_time_strip_finalize(GObject *object) {
+    g_free(STUDIO_TIME_STRIP(object)->lsystem);
+    G_OBJECT_CLASS(studio_time_strip_parent_class)->finalize(object);
+}
+
+static void studio_time_strip_class_init(StudioTimeStripClass *class) {
+    G_OBJECT_CLASS(class)->finalize = studio_time_strip_finalize;
+    time_signal = g_signal_new("time", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL,
+                               NULL, G_TYPE_NONE, 1, G_TYPE_DOUBLE);
+}
+
+static void studio_time_strip_init(StudioTimeStrip *strip) {
+    strip->stack = gtk_stack_new();
+    gtk_widget_set_hexpand(strip->stack, TRUE);
+    gtk_stack_add_named(GTK_STACK(strip->stack), make_clock(strip), "clock");
+    gtk_stack_add_named(GTK_STACK(strip->stack), make_steps(strip), "steps");
+    gtk_box_append(GTK_BOX(strip), strip->stack);
+    gtk_widget_add_css_class(GTK_WIDGET(strip), "time-strip");
+    show_years(strip);
+}
+
+GtkWidget *studio_time_strip_new(void) {
+    return g_object_new(STUDIO_TYPE_TIME_STRIP, NULL);
+}

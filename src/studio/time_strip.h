@@ -1,0 +1,18 @@
+/// @file time_strip.h
+/// The strip below the picture: the clock of the plants, or the steps of an L-system.
+#pragma once
+
+#include "studio/model/document.h"
+
+#include <gtk/gtk.h>
+
+#define STUDIO_TYPE_TIME_STRIP (studio_time_strip_get_type())
+G_DECLARE_FINAL_TYPE(StudioTimeStrip, studio_time_strip, STUDIO, TIME_STRIP, GtkBox)
+
+/// Signal "time" (double years): the clocks of all plants shall show it; NAN: as the document says.
+
+GtkWidget *studio_time_strip_new(void);
+/// For the plant (FR_NONE: none) of a document, which the steps of an L-system change.
+void studio_time_strip_show(StudioTimeStrip *strip, StudioDocument *document, uint32_t plant);
+/// The picture of the last moment is there: a clock that runs may go on.
+void studio_time_strip_continue(StudioTimeStrip *strip);

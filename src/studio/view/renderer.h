@@ -1,0 +1,39 @@
+/// @file renderer.h
+/// Draws what a store holds. While the view moves, a coarse picture within a budget that goes by
+/// how fast the machine is; when it rests, the fine one, a slice at a time, so that nothing ever
+/// waits for it. All calls need the context of the viewport to be current.
+#pragma once
+
+#include "studio/model/camera.h"
+#include "studio/view/store.h"
+
+typedef struct StudioRenderer StudioRenderer;
+
+typedef enum StudioMode { STUDIO_SHADED, STUDIO_WIREFRAME, STUDIO_SKELETON } StudioMode;
+
+typedef struct StudioDisplay {
+    StudioMode mode;
+    bool has_shadow, has_occlusion, has_grid;
+    bool is_dark;
+    double cell; ///< m, of the grid
+} StudioDisplay;
+
+/// What drawing took; the last of each.
+typedef struct StudioPace {
+    double coarse_seconds, fine_seconds;
+    uint64_t coarse_triangles, fine_triangles;
+} StudioPace;
+
+/// NULL with an error if the driver is not good enough.
+StudioRenderer *studio_renderer_new(GError **error);
+void studio_renderer_free(StudioRenderer *renderer);
+StudioStore *studio_renderer_store(StudioRenderer *renderer);
+void studio_renderer_resize(StudioRenderer *renderer, int width, int height);
+/// The camera, the display or the highlight has changed; with `is_geometry` what stands there, too.
+void studio_renderer_invalidate(StudioRenderer *renderer, bool is_geometry);
+/// Lines that are drawn over everything: pairs of points, in the scene's coordinates.
+void studio_renderer_highlight(StudioRenderer *renderer, const float (*points)[3], uint32_t count);
+/// Draws to the framebuffer that is bound. True if the fine picture is not done yet: call again.
+bool studio_renderer_draw(StudioRenderer *renderer, const StudioCamera *camera,
+                          const StudioDisplay *display, bool is_moving);
+StudioPace studio_renderer_pace(const StudioRenderer *renderer);

@@ -1,0 +1,171 @@
+/// @file shaders.h
+/// The programs of the viewport, GLSL 3.30.
+#pragma once
+
+/// Vertices of tubes and of instanced leaves; what is not instanced has a constant placement.
+#define STUDIO_PLACE                                                                               \
+    "#version 330 core\n"                                                                          \
+    "layout(location=0) in vec3 position;\n"                                                       \
+    "layout(location=1) in vec3 normal;\n"                                                         \
+    "layout(location=2) in vec2 uv;\n"                                                             \
+    "layout(location=3) in vec4 placement;\n" /* where, and how large */                           \
+    "layout(location=4) in vec4 turn;\n"                                                           \
+    "uniform mat4 model;\n"                                                                        \
+    "uniform mat4 clip;\n"                                                                         \
+    "uniform float enlarge;\n"                                                                     \
+    "vec3 turned(vec3 v) { return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v); }\n" \
+    "vec4 placed() { return model * vec4(\n"                                                       \
+    "    turned(position) * placement.w * enlarge + placement.xyz, 1.0); }\n"
+
+static const char studio_surface_vertex[] =
+    STUDIO_PLACE "out vec3 at; out vec3 facing; out vec2 tile;\n"
+                 "void main() {\n"
+                 "    vec4 world = placed();\n"
+                 "    at = world.xyz; facing = mat3(model) * turned(normal); tile = uv;\n"
+                 "    gl_Position = clip * world;\n"
+                 "}\n";
+
+/// Sun with its shadow, a sky of one colour above and the ground's below, light through leaves.
+static const char studio_surface_fragment[] =
+    "#version 330 core\n"
+    "in vec3 at; in vec3 facing; in vec2 tile;\n"
+    "uniform vec3 tint; uniform float cutoff, translucency; uniform bool has_picture, is_blade;\n"
+    "uniform sampler2D picture; uniform sampler2DShadow shadow; uniform mat4 to_shadow;\n"
+    "uniform vec3 sun, sun_colour, sky_colour, ground_colour; uniform bool has_shadow;\n"
+    "layout(location=0) out vec4 colour;\n"
+    "float lit(vec3 n) {\n"
+    "    if (!has_shadow) return 1.0;\n"
+    "    vec4 p = to_shadow * vec4(at, 1.0); vec3 s = p.xyz * 0.5 + 0.5;\n"
+    "    if (any(lessThan(s, vec3(0.0))) || any(greaterThan(s, vec3(1.0)))) return 1.0;\n"
+    "    float bias = 0.0012; vec2 texel = 1.0 / vec2(textureSize(shadow, 0)); float sum = 0.0;\n"
+    "    for (int i = 0; i < 4; i++) {\n"
+    "        vec2 o = (vec2(i & 1, i >> 1) - 0.5) * 1.6 * texel;\n"
+    "        sum += texture(shadow, vec3(s.xy + o, s.z - bias));\n"
+    "    }\n"
+    "    return sum * 0.25;\n"
+    "}\n"
+    "vec3 tone(vec3 c) { c *= 0.9; c = c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14);\n"
+    "    return pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)); }\n"
+    "void main() {\n"
+    "    vec3 base = tint; \n"
+    "    if (has_picture) {\n"
+    "        vec4 t = texture(picture, tile);\n"
+    "        if (is_blade) {\n" /* smaller pictures of a leaf have softer edges: keep their area */
+    "            vec2 d = tile * vec2(textureSize(picture, 0));\n"
+    "            float level = max(0.0, 0.5 * log2(max(dot(dFdx(d), dFdx(d)),\n"
+    "                                                  dot(dFdy(d), dFdy(d)))));\n"
+    "            if (t.a * (1.0 + 0.25 * level) < cutoff) discard;\n"
+    "        }\n"
+    "        base = t.rgb * tint;\n"
+    "    }\n"
+    "    vec3 n = normalize(facing); if (!gl_FrontFacing && is_blade) n = -n;\n"
+    "    float front = dot(n, sun), shade = lit(n);\n"
+    "    vec3 ambient = mix(ground_colour, sky_colour, 0.5 + 0.5 * n.z);\n"
+    "    vec3 direct = sun_colour * shade * max(front, 0.0);\n"
+    "    vec3 through = sun_colour * shade * max(-front, 0.0) * translucency * vec3(1.1, 1.0, "
+    "0.45);\n"
+    "    colour = vec4(tone(base * (ambient + direct + through)), 1.0);\n"
+    "}\n";
+
+static const char studio_shadow_vertex[] =
+    STUDIO_PLACE "out vec2 tile; void main() { tile = uv; gl_Position = clip * placed(); }\n";
+static const char studio_shadow_fragment[] =
+    "#version 330 core\n"
+    "in vec2 tile; uniform sampler2D picture; uniform float cutoff;\n"
+    "uniform bool has_picture, is_blade;\n"
+    "void main() { if (has_picture && is_blade && texture(picture, tile).a < cutoff) discard; }\n";
+
+/// The floor: a grid that fades with distance, with the shadow of what stands on it.
+static const char studio_floor_vertex[] =
+    "#version 330 core\n"
+    "uniform mat4 clip; uniform float extent; uniform vec2 centre; out vec2 at;\n"
+    "void main() {\n"
+    "    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;\n"
+    "    at = centre + corner * extent; gl_Position = clip * vec4(at, 0.0, 1.0);\n"
+    "}\n";
+static const char studio_floor_fragment[] =
+    "#version 330 core\n"
+    "in vec2 at; uniform vec2 centre; uniform float extent, cell; uniform bool has_grid; uniform "
+    "vec3 ground;\n"
+    "uniform sampler2DShadow shadow; uniform mat4 to_shadow; uniform bool has_shadow;\n"
+    "layout(location=0) out vec4 colour;\n"
+    "float lines(float size) {\n"
+    "    vec2 p = at / size, d = fwidth(p) + 1e-6;\n"
+    "    vec2 l = 1.0 - smoothstep(vec2(0.5), vec2(1.5), abs(p - round(p)) / d);\n"
+    "    float dense = clamp(1.0 - 2.0 * max(d.x, d.y), 0.0, 1.0); return max(l.x, l.y) * dense;\n"
+    "}\n"
+    "void main() {\n"
+    "    float fade = 1.0 - smoothstep(0.25, 1.0, length(at - centre) / extent);\n"
+    "    float dark = 0.0;\n"
+    "    if (has_shadow) {\n"
+    "        vec3 s = (to_shadow * vec4(at, 0.0, 1.0)).xyz * 0.5 + 0.5; float sum = 0.0;\n"
+    "        vec2 texel = 1.0 / vec2(textureSize(shadow, 0));\n"
+    "        for (int i = 0; i < 9; i++) {\n"
+    "            vec2 o = vec2(i % 3 - 1, i / 3 - 1) * 1.3 * texel;\n"
+    "            sum += texture(shadow, vec3(s.xy + o, s.z - 0.0008));\n"
+    "        }\n"
+    "        bool inside = all(greaterThan(s.xy, vec2(0.0))) && all(lessThan(s.xy, vec2(1.0)));\n"
+    "        dark = inside ? 1.0 - sum / 9.0 : 0.0;\n"
+    "    }\n"
+    "    float line = has_grid ? max(0.07 * lines(cell), 0.16 * lines(cell * 10.0)) : 0.0;\n"
+    "    vec3 c = mix(ground, vec3(1.0), line) * (1.0 - 0.5 * dark);\n"
+    "    colour = vec4(c, fade * 0.85);\n"
+    "}\n";
+
+/// Lines: the skeleton by order, or one colour.
+static const char studio_line_vertex[] =
+    "#version 330 core\n"
+    "layout(location=0) in vec3 position; layout(location=1) in float order;\n"
+    "uniform mat4 model, clip; uniform vec4 paint; out vec4 shown;\n"
+    "void main() {\n"
+    "    float t = clamp(order / 4.0, 0.0, 1.0);\n"
+    "    vec3 by_order = mix(vec3(0.93, 0.78, 0.55), vec3(0.45, 0.80, 0.42), t);\n"
+    "    shown = paint.a > 0.0 ? paint : vec4(by_order, 1.0);\n"
+    "    gl_Position = clip * model * vec4(position, 1.0);\n"
+    "}\n";
+static const char studio_line_fragment[] =
+    "#version 330 core\n"
+    "in vec4 shown; layout(location=0) out vec4 colour; void main() { colour = shown; }\n";
+
+/// A triangle that covers the picture.
+static const char studio_whole_vertex[] = "#version 330 core\n"
+                                          "out vec2 uv;\n"
+                                          "void main() {\n"
+                                          "    uv = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0; "
+                                          "gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);\n"
+                                          "}\n";
+static const char studio_backdrop_fragment[] =
+    "#version 330 core\n"
+    "in vec2 uv; uniform vec3 above, below; layout(location=0) out vec4 colour;\n"
+    "void main() {\n"
+    "    float grain = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453) - "
+    "0.5;\n"
+    "    colour = vec4(mix(below, above, smoothstep(0.0, 1.0, uv.y)) + grain / 255.0, 1.0);\n"
+    "}\n";
+
+/// Shows a drawn picture; with ambient occlusion from its depths: near neighbours in front darken.
+static const char studio_show_fragment[] =
+    "#version 330 core\n"
+    "in vec2 uv; uniform sampler2D drawn, depths; uniform vec2 planes; uniform float reach;\n"
+    "uniform bool has_occlusion; layout(location=0) out vec4 colour;\n"
+    "float far_of(vec2 p) {\n"
+    "    float d = texture(depths, p).r * 2.0 - 1.0;\n"
+    "    return 2.0 * planes.x * planes.y / (planes.x + planes.y - d * (planes.y - planes.x));\n"
+    "}\n"
+    "void main() {\n"
+    "    vec3 c = texture(drawn, uv).rgb;\n"
+    "    float here = far_of(uv);\n"
+    "    if (has_occlusion && here < planes.y * 0.98) {\n"
+    "        vec2 size = vec2(textureSize(drawn, 0)); float radius = reach * size.y / here;\n"
+    "        float turn = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453);\n"
+    "        float world = reach * 2.2, hidden = 0.0;\n"
+    "        for (int i = 0; i < 10; i++) {\n"
+    "            float a = (float(i) + turn) * 2.39996, r = sqrt((float(i) + 0.5) / 10.0);\n"
+    "            float d = here - far_of(uv + vec2(cos(a), sin(a)) * r * radius / size);\n"
+    "            hidden += smoothstep(0.02, 0.35, d / world) * (1.0 - smoothstep(1.0, 3.0, d / "
+    "world));\n"
+    "        }\n"
+    "        c *= 1.0 - 0.55 * hidden / 10.0;\n"
+    "    }\n"
+    "    colour = vec4(c, 1.0);\n"
+    "}\n";

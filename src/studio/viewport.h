@@ -1,0 +1,40 @@
+/// @file viewport.h
+/// The picture of the plants: a GtkGLArea that is turned, moved and zoomed with the pointer.
+#pragma once
+
+#include "studio/view/renderer.h"
+
+#include <gtk/gtk.h>
+
+#define STUDIO_TYPE_VIEWPORT (studio_viewport_get_type())
+G_DECLARE_FINAL_TYPE(StudioViewport, studio_viewport, STUDIO, VIEWPORT, GtkGLArea)
+
+/// Signals:
+///   "ready" ()                 it can take views now
+///   "clicked" (double x, y)    a point of the picture was clicked, in −1 to 1
+///   "drawn" ()                 the fine picture is done
+
+GtkWidget *studio_viewport_new(void);
+/// Whether views can be taken: it has a context of OpenGL.
+bool studio_viewport_is_ready(StudioViewport *viewport);
+/// Why it never will be; NULL: it will.
+const char *studio_viewport_error(StudioViewport *viewport);
+/// Sends a view to the graphics card. The first one is framed.
+void studio_viewport_take(StudioViewport *viewport, const StudioView *view, bool is_coarse);
+/// The next view is of another document: it is framed.
+void studio_viewport_forget(StudioViewport *viewport);
+void studio_viewport_add_picture(StudioViewport *viewport, const StudioPicture *picture);
+StudioDisplay *studio_viewport_display(StudioViewport *viewport);
+/// The display has changed.
+void studio_viewport_update(StudioViewport *viewport);
+StudioCamera *studio_viewport_camera(StudioViewport *viewport);
+void studio_viewport_frame_all(StudioViewport *viewport);
+/// Shows a box.
+void studio_viewport_frame(StudioViewport *viewport, const double min[3], const double max[3]);
+/// Goes by the given part of its height or by angles, as the pointer does.
+void studio_viewport_move(StudioViewport *viewport, double azimuth, double elevation, double zoom);
+void studio_viewport_highlight(StudioViewport *viewport, const float (*points)[3], uint32_t count);
+/// Whether the fine picture of what it holds is shown.
+bool studio_viewport_is_done(StudioViewport *viewport);
+StudioPace studio_viewport_pace(StudioViewport *viewport);
+StudioAmount studio_viewport_amount(StudioViewport *viewport);

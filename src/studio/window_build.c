@@ -1,0 +1,159 @@
+/// Between the window and its builder.
+#include "studio/window_private.h"
+
+#include "frond/pick.h"
+#include "studio/model/values.h"
+
+#include <math.h>
+
+static const double busy_after = 0.3; // seconds until it says that it is building
+enum { POLL_MILLISECONDS = 100 };
+
+// ---- what comes back ---------------------------------------------------------------------------
+
+static void show_amount(StudioWindow *window, const StudioTimes *times) {
+    StudioAmount amount = studio_viewport_amount(window->viewport);
+    double milliseconds =
+        1000 * (times->read + times->build + times->view + amount.uploaded_seconds);
+    char *leaves = studio_count_text(amount.leaves);
+    char *triangles = studio_count_text(amount.triangles);
+    char *text =
+        g_strdup_printf("%s leaves   %s triangles   %.0f ms", leaves, triangles, milliseconds);
+    gtk_label_set_text(GTK_LABEL(window->amount), text);
+    g_free(text);
+    g_free(triangles);
+    g_free(leaves);
+}
+
+static void take(StudioWindow *window, const StudioBuilt *built) {
+    if (built->view != NULL) {
+        studio_viewport_take(window->viewport, built->view, built->is_coarse);
+    }
+    if (built->is_coarse) {
+        return;
+    }
+    window->shown = built->revision;
+    g_clear_pointer(&window->diags, fr_diags_free);
+    window->diags = fr_diags_new();
+    for (size_t i = 0; i < fr_diags_count(built->diags); i++) {
+        const FrDiag *diag = fr_diags_get(built->diags, i);
+        fr_diags_add(window->diags, diag->severity, diag->code, diag->span, "%s", diag->text);
+    }
+    if (built->view != NULL) {
+        window->times = built->times;
+        show_amount(window, &built->times);
+        studio_graph_panel_set_counts(window->graph, built->counts);
+    }
+    if (built->status == FR_CANCELLED) {
+        studio_window_say(window, "Stopped: the picture is that of before");
+    }
+    studio_time_strip_continue(window->strip);
+    studio_window_update_problem(window);
+    studio_inspector_set_diags(window->inspector, window->diags);
+    studio_text_panel_show(window->text, window->document, window->diags);
+}
+
+void studio_window_collect(StudioWindow *window) {
+    if (window->builder == NULL || !studio_viewport_is_ready(window->viewport)) {
+        return;
+    }
+    const StudioBuilt *built;
+    while ((built = studio_builder_collect(window->builder)) != NULL) {
+        take(window, built);
+        studio_builder_release(window->builder);
+    }
+    StudioPicture picture;
+    while (studio_builder_take_picture(window->builder, &picture)) {
+        studio_viewport_add_picture(window->viewport, &picture);
+        fr_image_unref(picture.image);
+    }
+}
+
+static gboolean on_idle(gpointer data) {
+    StudioWindow *window = data;
+    g_atomic_int_set(&window->is_woken, 0);
+    studio_window_collect(window);
+    return G_SOURCE_REMOVE;
+}
+
+static void wake(void *user) {
+    StudioWindow *window = user;
+    if (g_atomic_int_compare_and_exchange(&window->is_woken, 0, 1)) {
+        g_idle_add_full(G_PRIORITY_DEFAULT, on_idle, window, NULL);
+    }
+}
+
+static gboolean on_poll(gpointer data) {
+    StudioWindow *window = data;
+    double fraction = 0, seconds = 0;
+    bool is_busy = studio_builder_is_busy(window->builder, &fraction, &seconds);
+    bool is_long = is_busy && seconds > busy_after;
+    gtk_revealer_set_reveal_child(GTK_REVEALER(window->busy), is_long);
+    gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(window->busy_bar), CLAMP(fraction, 0, 1));
+    if (!is_busy) {
+        window->progress = 0;
+    }
+    return is_busy;
+}
+
+// ---- what is asked for -------------------------------------------------------------------------
+
+void studio_window_start_builder(StudioWindow *window) {
+    if (window->builder == NULL) {
+        window->builder = studio_builder_new(wake, window);
+    }
+    window->asked = window->shown = 0;
+}
+
+static bool is_same_time(double a, double b) {
+    return a == b || (isnan(a) && isnan(b));
+}
+
+void studio_window_request(StudioWindow *window) {
+    uint64_t revision = studio_document_revision(window->document);
+    if (revision == window->asked && is_same_time(window->time, window->asked_time)) {
+        return;
+    }
+    window->asked = revision;
+    window->asked_time = window->time;
+    studio_builder_request(window->builder, studio_document_source(window->document),
+                           studio_document_folder(window->document), revision, window->time);
+    if (window->progress == 0) {
+        window->progress = g_timeout_add(POLL_MILLISECONDS, on_poll, window);
+    }
+}
+
+bool studio_window_is_idle(StudioWindow *window) {
+    double fraction, seconds;
+    return window->document == NULL ||
+           (window->shown == window->asked &&
+            !studio_builder_is_busy(window->builder, &fraction, &seconds) &&
+            !studio_builder_is_painting(window->builder) &&
+            g_atomic_int_get(&window->is_woken) == 0 && studio_viewport_is_done(window->viewport));
+}
+
+// ---- picking -----------------------------------------------------------------------------------
+
+void studio_window_pick(StudioWindow *window, double x, double y) {
+    double origin[3], direction[3];
+    int width = gtk_widget_get_width(GTK_WIDGET(window->viewport));
+    int height = gtk_widget_get_height(GTK_WIDGET(window->viewport));
+    const StudioCamera *camera = studio_viewport_camera(window->viewport);
+    studio_camera_ray(camera, (double)width / height, x, y, origin, direction);
+    double spread = 6 * tan(0.5 * camera->field_of_view) / height;
+    StudioPicked picked;
+    if (window->builder == NULL ||
+        !studio_builder_pick(window->builder, origin, direction, spread, &picked)) {
+        studio_window_select(window, FR_NONE);
+        return;
+    }
+    const FrContents *contents = studio_document_contents(window->document);
+    uint32_t plant = picked.plant == NULL ? FR_NONE : fr_contents_find(contents, 0, picked.plant);
+    uint32_t element = plant == FR_NONE || picked.component == NULL
+                           ? plant
+                           : fr_contents_find(contents, plant, picked.component);
+    studio_window_select(window, element == FR_NONE ? plant : element);
+    studio_viewport_highlight(window->viewport, (const float(*)[3])(const void *)picked.lines->data,
+                              picked.lines->len);
+    studio_picked_clear(&picked);
+}

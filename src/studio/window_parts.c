@@ -1,0 +1,267 @@
+/// What a window is made of.
+#include "studio/window_private.h"
+
+#include <string.h>
+
+// ---- signals -----------------------------------------------------------------------------------
+
+static void on_selected(GObject *panel, guint element, StudioWindow *window) {
+    (void)panel;
+    studio_window_select(window, element);
+}
+
+static void on_time(StudioTimeStrip *strip, double time, StudioWindow *window) {
+    (void)strip;
+    window->time = time;
+    studio_window_request(window);
+}
+
+static void on_clicked(StudioViewport *viewport, double x, double y, StudioWindow *window) {
+    (void)viewport;
+    studio_window_pick(window, x, y);
+}
+
+static void on_ready(StudioViewport *viewport, StudioWindow *window) {
+    (void)viewport;
+    studio_window_collect(window);
+}
+
+static void on_cancel(GtkButton *button, StudioWindow *window) {
+    (void)button;
+    studio_builder_cancel(window->builder);
+}
+
+static void on_show_problem(GtkButton *button, StudioWindow *window) {
+    (void)button;
+    studio_window_show_problem(window);
+}
+
+// ---- parts -------------------------------------------------------------------------------------
+
+static GtkWidget *icon_button(const char *icon, const char *action, const char *tip) {
+    GtkWidget *button = gtk_button_new_from_icon_name(icon);
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+    gtk_widget_set_tooltip_text(button, tip);
+    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+    return button;
+}
+
+static GMenu *menu_of(const char *const (*items)[2], size_t count) {
+    GMenu *menu = g_menu_new();
+    for (size_t i = 0; i < count; i++) {
+        g_menu_append(menu, items[i][0], items[i][1]);
+    }
+    return menu;
+}
+
+static GtkWidget *make_menu_button(void) {
+    static const char *const file[][2] = {{"_New…", "win.new"},
+                                          {"_Open…", "win.open"},
+                                          {"Save _As…", "win.save-as"},
+                                          {"_Export…", "win.export"},
+                                          {"Save _Picture…", "win.screenshot"}};
+    static const char *const help[][2] = {{"_Preferences", "win.preferences"},
+                                          {"_Keyboard Shortcuts", "win.shortcuts"},
+                                          {"_Help", "win.help"},
+                                          {"_About Frond Studio", "win.about"}};
+    GMenu *menu = g_menu_new();
+    GMenu *first = menu_of(file, G_N_ELEMENTS(file)), *second = menu_of(help, G_N_ELEMENTS(help));
+    g_menu_append_section(menu, NULL, G_MENU_MODEL(first));
+    g_menu_append_section(menu, NULL, G_MENU_MODEL(second));
+    GtkWidget *button = gtk_menu_button_new();
+    gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "open-menu-symbolic");
+    gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
+    gtk_menu_button_set_primary(GTK_MENU_BUTTON(button), TRUE);
+    gtk_widget_set_tooltip_text(button, "Main menu");
+    g_object_unref(first);
+    g_object_unref(second);
+    g_object_unref(menu);
+    return button;
+}
+
+GtkWidget *studio_window_make_header(StudioWindow *window) {
+    GtkWidget *header = adw_header_bar_new();
+    window->title = ADW_WINDOW_TITLE(adw_window_title_new("Frond Studio", ""));
+    adw_header_bar_set_title_widget(ADW_HEADER_BAR(header), GTK_WIDGET(window->title));
+    AdwHeaderBar *bar = ADW_HEADER_BAR(header);
+    adw_header_bar_pack_start(bar, icon_button("document-open-symbolic", "win.open", "Open"));
+    window->undo = icon_button("edit-undo-symbolic", "win.undo", "Undo");
+    window->redo = icon_button("edit-redo-symbolic", "win.redo", "Redo");
+    adw_header_bar_pack_start(bar, window->undo);
+    adw_header_bar_pack_start(bar, window->redo);
+    adw_header_bar_pack_end(bar, make_menu_button());
+    window->save_button = gtk_button_new_with_label("Save");
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(window->save_button), "win.save");
+    adw_header_bar_pack_end(bar, window->save_button);
+    GtkWidget *export = gtk_button_new_with_label("Export…");
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(export), "win.export");
+    adw_header_bar_pack_end(bar, export);
+    GtkWidget *hidden[] = {window->undo, window->redo, window->save_button, export};
+    memcpy(window->welcome_hidden, hidden, sizeof hidden);
+    for (size_t i = 0; i < G_N_ELEMENTS(hidden); i++) {
+        gtk_widget_set_visible(hidden[i], FALSE);
+    }
+    return header;
+}
+
+// All kinds of components, for those who do not drag.
+static GtkWidget *make_add(void) {
+    GMenu *menu = g_menu_new();
+    for (int kind = 1; kind < FR_COMPONENT_COUNT; kind++) {
+        const char *element = fr_pgraph_table((FrComponentKind)kind)->element;
+        char *label = g_strdup(element), *action = g_strdup_printf("win.add::%s", element);
+        label[0] = g_ascii_toupper(label[0]);
+        g_menu_append(menu, label, action);
+        g_free(action);
+        g_free(label);
+    }
+    GtkWidget *button = gtk_menu_button_new();
+    gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
+    gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
+    gtk_widget_set_tooltip_text(button, "Add a component to the selected one");
+    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL,
+                                   "Add a component", -1);
+    g_object_unref(menu);
+    return button;
+}
+
+static GtkWidget *make_side(StudioWindow *window) {
+    window->side = gtk_stack_new();
+    window->graph = STUDIO_GRAPH_PANEL(studio_graph_panel_new());
+    window->things = STUDIO_THINGS_PANEL(studio_things_panel_new());
+    window->text = STUDIO_TEXT_PANEL(studio_text_panel_new());
+    GtkStack *stack = GTK_STACK(window->side);
+    gtk_stack_add_titled(stack, GTK_WIDGET(window->graph), "graph", "Graph");
+    gtk_stack_add_titled(stack, GTK_WIDGET(window->things), "things", "Contents");
+    gtk_stack_add_titled(stack, GTK_WIDGET(window->text), "text", "Text");
+    gtk_widget_set_vexpand(window->side, TRUE);
+    g_signal_connect(window->graph, "selected", G_CALLBACK(on_selected), window);
+    g_signal_connect(window->things, "selected", G_CALLBACK(on_selected), window);
+    GtkWidget *switcher = gtk_stack_switcher_new();
+    gtk_stack_switcher_set_stack(GTK_STACK_SWITCHER(switcher), stack);
+    gtk_widget_set_hexpand(switcher, TRUE);
+    GtkWidget *top = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+    gtk_widget_add_css_class(top, "side-top");
+    gtk_box_append(GTK_BOX(top), switcher);
+    gtk_box_append(GTK_BOX(top), make_add());
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+    gtk_box_append(GTK_BOX(box), top);
+    gtk_box_append(GTK_BOX(box), window->side);
+    gtk_widget_set_size_request(box, 240, -1);
+    gtk_widget_add_css_class(box, "view");
+    return box;
+}
+
+static GtkWidget *make_modes(void) {
+    static const char *const modes[][3] = {
+        {"Shaded", "shaded", "Surfaces in sun and shade (1)"},
+        {"Wireframe", "wireframe", "The edges of all triangles (2)"},
+        {"Skeleton", "skeleton", "The axes of stems and branches (3)"},
+    };
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+    gtk_widget_add_css_class(box, "linked");
+    for (size_t i = 0; i < G_N_ELEMENTS(modes); i++) {
+        GtkWidget *button = gtk_toggle_button_new_with_label(modes[i][0]);
+        gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "win.mode");
+        gtk_actionable_set_action_target(GTK_ACTIONABLE(button), "s", modes[i][1]);
+        gtk_widget_set_tooltip_text(button, modes[i][2]);
+        gtk_box_append(GTK_BOX(box), button);
+    }
+    GtkWidget *tools = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+    gtk_widget_add_css_class(tools, "viewport-tools");
+    gtk_box_append(GTK_BOX(tools), box);
+    gtk_box_append(GTK_BOX(tools),
+                   icon_button("zoom-fit-best-symbolic", "win.frame", "Show all (F)"));
+    gtk_widget_set_halign(tools, GTK_ALIGN_END);
+    gtk_widget_set_valign(tools, GTK_ALIGN_START);
+    return tools;
+}
+
+static GtkWidget *make_problem(StudioWindow *window) {
+    window->problem = gtk_revealer_new();
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+    gtk_widget_add_css_class(box, "problem");
+    gtk_box_append(GTK_BOX(box), gtk_image_new_from_icon_name("dialog-warning-symbolic"));
+    window->problem_text = gtk_label_new("");
+    gtk_label_set_ellipsize(GTK_LABEL(window->problem_text), PANGO_ELLIPSIZE_END);
+    gtk_label_set_xalign(GTK_LABEL(window->problem_text), 0);
+    gtk_widget_set_hexpand(window->problem_text, TRUE);
+    gtk_box_append(GTK_BOX(box), window->problem_text);
+    GtkWidget *button = gtk_button_new_with_label("Show");
+    g_signal_connect(button, "clicked", G_CALLBACK(on_show_problem), window);
+    gtk_box_append(GTK_BOX(box), button);
+    gtk_revealer_set_child(GTK_REVEALER(window->problem), box);
+    gtk_widget_set_valign(window->problem, GTK_ALIGN_END);
+    return window->problem;
+}
+
+static GtkWidget *make_busy(StudioWindow *window) {
+    window->busy = gtk_revealer_new();
+    gtk_revealer_set_transition_type(GTK_REVEALER(window->busy),
+                                     GTK_REVEALER_TRANSITION_TYPE_CROSSFADE);
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 10);
+    gtk_widget_add_css_class(box, "busy");
+    window->busy_bar = gtk_progress_bar_new();
+    gtk_widget_set_valign(window->busy_bar, GTK_ALIGN_CENTER);
+    gtk_widget_set_size_request(window->busy_bar, 140, -1);
+    gtk_box_append(GTK_BOX(box), gtk_label_new("Building"));
+    gtk_box_append(GTK_BOX(box), window->busy_bar);
+    GtkWidget *cancel = gtk_button_new_with_label("Cancel");
+    g_signal_connect(cancel, "clicked", G_CALLBACK(on_cancel), window);
+    gtk_box_append(GTK_BOX(box), cancel);
+    gtk_revealer_set_child(GTK_REVEALER(window->busy), box);
+    gtk_widget_set_halign(window->busy, GTK_ALIGN_CENTER);
+    gtk_widget_set_valign(window->busy, GTK_ALIGN_START);
+    return window->busy;
+}
+
+static GtkWidget *make_middle(StudioWindow *window) {
+    window->viewport = STUDIO_VIEWPORT(studio_viewport_new());
+    g_signal_connect(window->viewport, "clicked", G_CALLBACK(on_clicked), window);
+    g_signal_connect(window->viewport, "ready", G_CALLBACK(on_ready), window);
+    gtk_widget_set_hexpand(GTK_WIDGET(window->viewport), TRUE);
+    gtk_widget_set_vexpand(GTK_WIDGET(window->viewport), TRUE);
+    GtkOverlay *overlay = GTK_OVERLAY(gtk_overlay_new());
+    gtk_overlay_set_child(overlay, GTK_WIDGET(window->viewport));
+    window->amount = gtk_label_new("");
+    gtk_widget_add_css_class(window->amount, "amount");
+    gtk_widget_set_halign(window->amount, GTK_ALIGN_START);
+    gtk_widget_set_valign(window->amount, GTK_ALIGN_START);
+    gtk_widget_set_can_target(window->amount, FALSE);
+    gtk_overlay_add_overlay(overlay, window->amount);
+    gtk_overlay_add_overlay(overlay, make_modes());
+    gtk_overlay_add_overlay(overlay, make_problem(window));
+    gtk_overlay_add_overlay(overlay, make_busy(window));
+    window->strip = STUDIO_TIME_STRIP(studio_time_strip_new());
+    g_signal_connect(window->strip, "time", G_CALLBACK(on_time), window);
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+    gtk_box_append(GTK_BOX(box), GTK_WIDGET(overlay));
+    gtk_box_append(GTK_BOX(box), GTK_WIDGET(window->strip));
+    gtk_widget_set_size_request(box, 320, 240);
+    return box;
+}
+
+GtkWidget *studio_window_make_panes(StudioWindow *window) {
+    window->inspector = STUDIO_INSPECTOR(studio_inspector_new());
+    g_signal_connect(window->inspector, "selected", G_CALLBACK(on_selected), window);
+    gtk_widget_set_size_request(GTK_WIDGET(window->inspector), 280, -1);
+    window->inner = gtk_paned_new(GTK_ORIENTATION_HORIZONTAL);
+    window->outer = gtk_paned_new(GTK_ORIENTATION_HORIZONTAL);
+    GtkPaned *inner = GTK_PANED(window->inner), *outer = GTK_PANED(window->outer);
+    gtk_paned_set_start_child(inner, make_middle(window));
+    gtk_paned_set_end_child(inner, GTK_WIDGET(window->inspector));
+    gtk_paned_set_resize_end_child(inner, FALSE);
+    gtk_paned_set_shrink_start_child(inner, FALSE);
+    gtk_paned_set_shrink_end_child(inner, FALSE);
+    gtk_paned_set_start_child(outer, make_side(window));
+    gtk_paned_set_end_child(outer, window->inner);
+    gtk_paned_set_resize_start_child(outer, FALSE);
+    gtk_paned_set_shrink_start_child(outer, FALSE);
+    gtk_paned_set_shrink_end_child(outer, FALSE);
+    int side = studio_settings_int(window->settings, "side-width", 300);
+    int width = studio_settings_int(window->settings, "width", 1440);
+    int inspector = studio_settings_int(window->settings, "inspector-width", 360);
+    gtk_paned_set_position(outer, side);
+    gtk_paned_set_position(inner, MAX(320, width - side - inspector));
+    return window->outer;
+}

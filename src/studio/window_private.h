@@ -1,0 +1,98 @@
+/// @file window_private.h
+/// What the files of the window share.
+#pragma once
+
+#include "studio/files.h"
+#include "studio/graph_panel.h"
+#include "studio/inspector.h"
+#include "studio/model/builder.h"
+#include "studio/model/commands.h"
+#include "studio/model/place.h"
+#include "studio/picture.h"
+#include "studio/text_panel.h"
+#include "studio/things_panel.h"
+#include "studio/time_strip.h"
+#include "studio/viewport.h"
+#include "studio/window.h"
+
+struct _StudioWindow {
+    AdwApplicationWindow parent;
+    StudioSettings *settings;
+    StudioDocument *document; ///< NULL: the welcome page
+    StudioRecovery *recovery;
+    StudioBuilder *builder;
+    char *selected;        ///< place of what the inspector shows; NULL
+    char *plant;           ///< place of the plant the graph shows; NULL
+    FrDiags *diags;        ///< of the last build; NULL
+    StudioTimes times;     ///< of the last build
+    uint64_t asked, shown; ///< revisions
+    double time;           ///< years on the clocks of all plants; NAN: as the document says
+    double asked_time;
+    guint autosave, progress; ///< timers
+    gint is_woken;            ///< atomic: the main thread is on its way
+    bool is_closing;          ///< the user has said what shall become of changes
+
+    GtkWidget *stack; ///< "welcome", "document"
+    AdwWindowTitle *title;
+    AdwToastOverlay *toasts;
+    GtkWidget *outer, *inner; ///< panes
+    GtkWidget *undo, *redo, *save_button, *welcome_hidden[4];
+    StudioViewport *viewport;
+    GtkWidget *side; ///< stack of graph, things and text
+    StudioGraphPanel *graph;
+    StudioThingsPanel *things;
+    StudioTextPanel *text;
+    StudioInspector *inspector;
+    StudioTimeStrip *strip;
+    GtkWidget *amount, *problem, *problem_text, *busy, *busy_bar, *scale;
+};
+
+// window_build.c
+
+/// Asks for what is shown to be built, if it is not already.
+void studio_window_request(StudioWindow *window);
+/// Connects the builder; called once.
+void studio_window_start_builder(StudioWindow *window);
+/// Takes what the builder has made.
+void studio_window_collect(StudioWindow *window);
+/// Lets the user pick what stands at a point of the picture.
+void studio_window_pick(StudioWindow *window, double x, double y);
+
+// window_actions.c
+
+void studio_window_add_actions(StudioWindow *window);
+/// Enables what can be done now.
+void studio_window_update_actions(StudioWindow *window);
+
+// window.c
+
+/// Shows an element in the inspector, the graph and the list; FR_NONE: nothing.
+void studio_window_select(StudioWindow *window, uint32_t element);
+uint32_t studio_window_selected(const StudioWindow *window);
+/// The plant that the graph shows; FR_NONE.
+uint32_t studio_window_plant(const StudioWindow *window);
+/// Goes to the place of the first problem.
+void studio_window_show_problem(StudioWindow *window);
+/// Shows or hides what is wrong.
+void studio_window_update_problem(StudioWindow *window);
+
+// window_parts.c
+
+GtkWidget *studio_window_make_header(StudioWindow *window);
+GtkWidget *studio_window_make_panes(StudioWindow *window);
+
+// welcome.c
+
+GtkWidget *studio_welcome_new(StudioWindow *window);
+
+// export.c
+
+void studio_window_export(StudioWindow *window);
+
+// dialogs.c
+
+void studio_window_show_preferences(StudioWindow *window);
+void studio_window_show_shortcuts(StudioWindow *window);
+void studio_window_show_about(StudioWindow *window);
+/// Asks whether to save; then closes.
+void studio_window_ask_and_close(StudioWindow *window);
