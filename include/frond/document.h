@@ -164,6 +164,8 @@ FR_API const FrSurroundings *fr_document_surroundings(const FrDocument *document
 /// The document of one plant that is an L-system of this text; `view` (may be NULL) names its view
 /// file. Free with g_free().
 FR_API char *fr_document_wrap_lsystem(const char *id, const char *text, const char *view);
+/// The document of one plant that is a skeleton of that file. Free with g_free().
+FR_API char *fr_document_wrap_skeleton(const char *id, const char *file);
 /// The text of a plant that is an L-system as a file of its own: numbers that the document sets
 /// stand in their macros, steps and seed in its head. Free with g_free().
 FR_API FR_MUST_USE FrStatus fr_document_extract_lsystem(const FrDocument *document,

@@ -22,7 +22,7 @@ typedef struct FrIoOptions {
 typedef struct FrIoStats {
     uint64_t meshes, vertices, triangles; ///< triangles: with every instance counted
     uint64_t surfaces;                    ///< rational ones; then there are no triangles
-    uint64_t entities;                    ///< of an .mtg or .opf, which are no surfaces
+    uint64_t entities;                    ///< of an .mtg, .opf or .txt, which are no surfaces
     uint64_t bytes;
     double skin_seconds, write_seconds;
 } FrIoStats;
@@ -33,8 +33,8 @@ FR_API bool fr_io_can_write(const char *path);
 /// The extensions, e.g. ".glb", for messages; NULL-terminated.
 FR_API const char *const *fr_io_extensions(void);
 /// Writes the scene in the format of the extension of `path`: .glb .gltf .usda .obj .ply .stl .3mf,
-/// the topology as .mtg and .opf, and as rational surfaces .igs .iges .stp .step and .nurbs.obj
-/// (free-form statements).
+/// the topology as .mtg and .opf, lines as .txt, and as rational surfaces .igs .iges .stp .step and
+/// .nurbs.obj (free-form statements).
 FR_API FR_MUST_USE FrStatus fr_io_write(const FrScene *scene, const char *path,
                                         const FrIoOptions *options, const FrContext *context,
                                         FrIoStats *stats);

@@ -36,7 +36,8 @@ FR_API FR_MUST_USE FrStatus fr_skeleton_read(const FrSource *source, const FrCon
 // ---- a skeleton in a document -----------------------------------------------------------------
 
 #define FR_SKELETON_PARAMS(X)                                                                      \
-    X(TEXT, file, "", 0, 0, "", "", "table of lines beside the document; empty: the text within")  \
+    X(TEXT, file, "", 0, 0, "", "",                                                                \
+      "table of lines, or .mtg, beside the document; empty: the text within")                      \
     X(REAL, unit, "1", 0.000001, 1000000, "m", "", "length of one unit of the table")              \
     X(REAL, tolerance, "-1", -1, 1000, "m", "",                                                    \
       "ends nearer than this are one joint; -1: 1/100000 of the height")                           \

@@ -1,6 +1,8 @@
 /// frond convert: documents in the formats of other programs, and back. One row for each way.
 #include "cli/cli.h"
 
+#include "frond/skeleton.h"
+
 #include <glib/gstdio.h>
 #include <stdio.h>
 #include <string.h>
@@ -140,11 +142,51 @@ static FrStatus lsystem_of_document(CliSession *session, const char *in, const c
     return status;
 }
 
+// ---- skeletons --------------------------------------------------------------------------------
+
+/// A document that names the file, once that has been read without errors.
+static FrStatus document_of_lines(CliSession *session, const char *in, const char *out) {
+    FrSkeletonParams params;
+    fr_params_init(fr_skeleton_table(), &params);
+    g_free(params.file);
+    params.file = g_strdup(in);
+    FrSkeleton *skeleton = fr_skeleton_new(&params);
+    FrStatus status = fr_skeleton_load(skeleton, NULL, ".", (FrSpan){0}, &session->context);
+    if (status == FR_OK) {
+        char *id = id_of(out), *file = path_from(out, in);
+        char *text = fr_document_wrap_skeleton(id, file);
+        status = save_text(session, out, text);
+        g_free(id);
+        g_free(file);
+        g_free(text);
+    }
+    fr_skeleton_free(skeleton);
+    fr_params_clear(fr_skeleton_table(), &params);
+    return status;
+}
+
+static FrStatus lines_of_document(CliSession *session, const char *in, const char *out) {
+    FrDocument *document;
+    FrScene *scene;
+    FrStatus status = cli_session_build(session, in, &document, &scene);
+    if (status == FR_OK) {
+        FrIoOptions io = fr_io_options_default();
+        status = fr_io_write(scene, out, &io, &session->context, NULL);
+        fr_scene_free(scene);
+        fr_document_free(document);
+    }
+    if (status == FR_OK && !session->options->is_quiet) {
+        printf("%s\n", out);
+    }
+    return status;
+}
+
 // ---- which way --------------------------------------------------------------------------------
 
 static const Conversion conversions[] = {
-    {".l", ".frond", document_of_lsystem},
-    {".frond", ".l", lsystem_of_document},
+    {".l", ".frond", document_of_lsystem}, {".frond", ".l", lsystem_of_document},
+    {".mtg", ".frond", document_of_lines}, {".txt", ".frond", document_of_lines},
+    {".frond", ".mtg", lines_of_document}, {".frond", ".txt", lines_of_document},
 };
 
 static bool is_of(const char *path, const char *extension) {

@@ -12,6 +12,8 @@ FrStatus fr_free_form_write(const FrScene *scene, const char *path, const FrIoOp
                             const FrContext *context, FrIoStats *stats);
 FrStatus fr_iges_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                        const FrContext *context, FrIoStats *stats);
+FrStatus fr_lines_write(const FrScene *scene, const char *path, const FrIoOptions *options,
+                        const FrContext *context, FrIoStats *stats);
 FrStatus fr_mtg_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                       const FrContext *context, FrIoStats *stats);
 FrStatus fr_obj_write(const FrScene *scene, const char *path, const FrIoOptions *options,

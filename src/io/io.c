@@ -10,14 +10,27 @@ typedef FrStatus (*FrFormatWrite)(const FrScene *scene, const char *path,
                                   FrIoStats *stats);
 
 // A longer extension stands before the one that it ends in.
-static const char *const extensions[] = {".3mf",  ".glb",       ".gltf", ".igs",  ".iges",
-                                         ".mtg",  ".nurbs.obj", ".obj",  ".opf",  ".ply",
-                                         ".step", ".stl",       ".stp",  ".usda", NULL};
-static const FrFormatWrite writers[] = {
-    fr_three_mf_write, fr_glb_write,       fr_gltf_write, fr_iges_write, fr_iges_write,
-    fr_mtg_write,      fr_free_form_write, fr_obj_write,  fr_opf_write,  fr_ply_write,
-    fr_step_write,     fr_stl_write,       fr_step_write, fr_usd_write,
-};
+#define FORMATS(X)                                                                                 \
+    X(".3mf", fr_three_mf_write)                                                                   \
+    X(".glb", fr_glb_write)                                                                        \
+    X(".gltf", fr_gltf_write)                                                                      \
+    X(".igs", fr_iges_write)                                                                       \
+    X(".iges", fr_iges_write)                                                                      \
+    X(".mtg", fr_mtg_write)                                                                        \
+    X(".nurbs.obj", fr_free_form_write)                                                            \
+    X(".obj", fr_obj_write)                                                                        \
+    X(".opf", fr_opf_write)                                                                        \
+    X(".ply", fr_ply_write)                                                                        \
+    X(".step", fr_step_write)                                                                      \
+    X(".stl", fr_stl_write)                                                                        \
+    X(".stp", fr_step_write)                                                                       \
+    X(".txt", fr_lines_write)                                                                      \
+    X(".usda", fr_usd_write)
+
+#define EXTENSION(extension, write) extension,
+#define WRITER(extension, write) write,
+static const char *const extensions[] = {FORMATS(EXTENSION) NULL};
+static const FrFormatWrite writers[] = {FORMATS(WRITER)};
 
 FrIoOptions fr_io_options_default(void) {
     return (FrIoOptions){

@@ -1,5 +1,5 @@
 // A skeleton of a document: a table of lines and what is said of it.
-#include "frond/skeleton.h"
+#include "variation/skeleton_mtg.h"
 
 #include <cglm/struct.h>
 
@@ -62,7 +62,9 @@ FrStatus fr_skeleton_load(FrSkeleton *skeleton, const FrSource *text, const char
         text = file;
     }
     if (status == FR_OK) {
-        status = fr_skeleton_read(text, context, &skeleton->segments, &skeleton->count);
+        bool is_graph = file != NULL && g_str_has_suffix(skeleton->params.file, ".mtg");
+        status = (is_graph ? fr_skeleton_read_mtg : fr_skeleton_read)(
+            text, context, &skeleton->segments, &skeleton->count);
     }
     fr_source_unref(file);
     float unit = (float)skeleton->params.unit;

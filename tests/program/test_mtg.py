@@ -97,6 +97,31 @@ def stands_are_plants(folder):
     assert all(math.dist(tip, want) < 1e-5 for tip, want in zip(tips, ([0, 0, 2], [5, 1, 4]))), tips
 
 
+def comes_back_as_lines(folder):
+    path, document = folder / "chestnut.mtg", folder / "again.frond"
+    source = tap.SOURCE / "examples" / "chestnut.frond"
+    tap.run("convert", source, path)
+    tap.run("convert", path, document)
+    assert 'file="chestnut.mtg"' in document.read_text()
+    stats, again = tap.statistics(source), tap.statistics(document)
+    assert again["nodes"] == stats["nodes"], (again, stats)
+    tap.run("convert", document, folder / "again.txt")
+    tips = lambda p: sorted(line.split()[3:6] for line in p.read_text().splitlines() if line[0] != "#")
+    drawn = sorted([f"{v:.2f}" for v in i["at"]] for i in of_class(read(path), "I"))
+    kept = sorted([f"{float(v):.2f}" for v in tip] for tip in tips(folder / "again.txt"))
+    missing = {tuple(tip) for tip in drawn} - {tuple(tip) for tip in kept}
+    assert len(missing) < len(drawn) / 200, len(missing)  # those that rounding parts
+
+
+def lines_make_a_document(folder):
+    (folder / "scan.txt").write_text("0 0 0  0 0 1  0.1\n0 0 1  0 1 2  0.05\n")
+    tap.run("convert", folder / "scan.txt", folder / "scan.frond")
+    assert tap.statistics(folder / "scan.frond")["nodes"] == 2
+    (folder / "bad.txt").write_text("0 0 0  0 0\n")
+    done = tap.run("convert", folder / "bad.txt", folder / "bad.frond", status=1)
+    assert "bad.txt:1:" in done.stderr and not (folder / "bad.frond").exists()
+
+
 TESTS = [(f"/mtg/{example.stem} has all its internodes and organs", counts_agree(example))
          for example in tap.EXAMPLES if example.stem in
          ("figure2", "sunflower", "chestnut", "sheet-multipliers", "shore-trees")]
@@ -104,6 +129,8 @@ TESTS += [
     ("/mtg/internodes are as long as their tips are apart", lengths_are_distances),
     ("/mtg/figure 2 has its three chains of three", branches_as_published),
     ("/mtg/each place is a plant of its own", stands_are_plants),
+    ("/mtg/a plant comes back from its graph as lines", comes_back_as_lines),
+    ("/mtg/a table of lines becomes a document", lines_make_a_document),
 ]
 
 if __name__ == "__main__":
