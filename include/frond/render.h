@@ -29,3 +29,17 @@ FR_API FR_MUST_USE FrStatus fr_render(const FrScene *scene, const FrRenderParams
 FR_API FR_MUST_USE FrStatus fr_render_light(const FrScene *scene, int axis, double at,
                                             const FrRenderParams *params, const FrContext *context,
                                             FrImage **image);
+
+/// Where the light of a scene is shown.
+typedef enum FrLightAt {
+    FR_LIGHT_AT_GRID,   ///< on a grid that fills the box around everything
+    FR_LIGHT_AT_ORGANS, ///< at every leaf, flower and tip of a stem
+} FrLightAt;
+
+/// The same light at points, as balls in false colours seen through a view, among plants and
+/// obstacles in grey. A line leads from each to the light; its length is the confidence. `count`
+/// points lie along the longest side of the grid, 1 to 128. Of the parameters, size and view count.
+FR_API FR_MUST_USE FrStatus fr_render_light_points(const FrScene *scene, FrLightAt where,
+                                                   uint32_t count, const FrRenderParams *params,
+                                                   const FrSkinParams *skin,
+                                                   const FrContext *context, FrImage **image);

@@ -29,9 +29,12 @@ typedef struct CliOptions {
     GPtrArray *outputs; ///< char *, of -o
     GPtrArray *sets;    ///< char *, "path=value"
     int64_t seed;       ///< < 0: as the document says
-    int light_axis;     ///< of a slice of light: 0, 1, 2 are x, y, z; < 0: none is wanted
+    bool has_light;     ///< a picture of the light is wanted
+    int light_axis;     ///< of a slice of light: 0, 1, 2 are x, y, z; < 0: points
     double light_at;    ///< m, along that axis
-    double time;        ///< years, of all plants' clocks; NAN: as the document says
+    FrLightAt light_where;
+    int64_t light_count; ///< points along the longest side of a grid
+    double time;         ///< years, of all plants' clocks; NAN: as the document says
     bool has_frames;
     int64_t first_frame, last_frame;
     int threads;   ///< 0: one per processor

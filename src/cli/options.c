@@ -165,14 +165,33 @@ static bool take_frames(CliOptions *options, const char *value) {
     return is_right;
 }
 
+/// "points", "points=24", "organs".
+static bool take_light_points(CliOptions *options, const char *value) {
+    options->light_axis = -1;
+    options->light_where = *value == 'o' ? FR_LIGHT_AT_ORGANS : FR_LIGHT_AT_GRID;
+    options->light_count = 16;
+    bool is_right = strcmp(value, "organs") == 0 || strcmp(value, "points") == 0 ||
+                    (g_str_has_prefix(value, "points=") &&
+                     g_ascii_string_to_signed(value + strlen("points="), 10, 1, 128,
+                                              &options->light_count, NULL));
+    options->has_light = is_right;
+    return is_right;
+}
+
 static bool take_light(CliOptions *options, const char *value) {
+    if (take_light_points(options, value)) {
+        return true;
+    }
     const char *axis = *value == '\0' ? NULL : strchr("xyz", *value);
     char *end = NULL;
     double at = axis != NULL && value[1] == '=' ? g_ascii_strtod(value + 2, &end) : 0;
     if (end == NULL || end == value + 2 || *end != '\0' || !(at >= -1e6 && at <= 1e6)) {
-        cli_message("--light takes a slice like z=1.2, from -1000000 to 1000000, not '%s'", value);
+        cli_message("--light takes a slice like z=1.2, from -1000000 to 1000000, points, points=N "
+                    "from 1 to 128, or organs, not '%s'",
+                    value);
         return false;
     }
+    options->has_light = true;
     options->light_axis = *value - 'x';
     options->light_at = at;
     return true;
@@ -283,8 +302,8 @@ static const OptionRow rows[] = {
     {"size", 0, "WxH", CLI_RENDER | CLI_VARY, "pixels of the picture, of each picture of a sheet",
      take_size},
     {"samples", 0, "N", CLI_RENDER | CLI_VARY, "paths per pixel", take_samples},
-    {"light", 0, "AXIS=AT", CLI_RENDER, "the light in a slice, like z=1.2, in false colours",
-     take_light},
+    {"light", 0, "WHERE", CLI_RENDER,
+     "the light in false colours: in a slice like z=1.2, at points or at organs", take_light},
     {"camera", 0, "NAME", CLI_RENDER, "the view of that name", take_camera},
     {"preset", 0, "NAME", CLI_NEW,
      "the species to begin with, else a young tree; see frond presets", take_preset},
@@ -316,7 +335,6 @@ CliOptions cli_options_new(void) {
                         .sets = g_ptr_array_new_with_free_func(g_free),
                         .seed = -1,
                         .time = NAN,
-                        .light_axis = -1,
                         .steps = -1,
                         .limits = limits_here(),
                         .nurbs = g_ptr_array_new_with_free_func(g_free)};

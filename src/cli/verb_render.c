@@ -47,6 +47,22 @@ static bool check_camera(const CliOptions *options, const FrScene *scene) {
     return is_known;
 }
 
+static FrStatus render(CliSession *session, const FrScene *scene, const FrRenderParams *params,
+                       FrImage **image) {
+    const CliOptions *options = session->options;
+    const FrContext *context = &session->context;
+    FrSkinParams skin = fr_skin_default();
+    skin.lod = options->lod;
+    if (!options->has_light) {
+        return fr_render(scene, params, &skin, context, image);
+    }
+    return options->light_axis >= 0
+               ? fr_render_light(scene, options->light_axis, options->light_at, params, context,
+                                 image)
+               : fr_render_light_points(scene, options->light_where, (uint32_t)options->light_count,
+                                        params, &skin, context, image);
+}
+
 static FrStatus render_and_save(CliSession *session, FrScene *scene, const char *path) {
     const CliOptions *options = session->options;
     FrNurbsParams plain = fr_nurbs_default();
@@ -60,14 +76,9 @@ static FrStatus render_and_save(CliSession *session, FrScene *scene, const char 
         g_free(params.view);
         params.view = g_strdup(options->camera);
     }
-    FrSkinParams skin = fr_skin_default();
-    skin.lod = options->lod;
     double began = cli_now();
     FrImage *image = NULL;
-    FrStatus status = options->light_axis >= 0
-                          ? fr_render_light(scene, options->light_axis, options->light_at, &params,
-                                            &session->context, &image)
-                          : fr_render(scene, &params, &skin, &session->context, &image);
+    FrStatus status = render(session, scene, &params, &image);
     session->render_seconds += cli_now() - began;
     if (status == FR_OK) {
         GBytes *png = fr_image_to_png(image);

@@ -3,14 +3,12 @@
 #include "render/render.h"
 
 #include "frond/lighting.h"
+#include "render/light_scale.h"
 
 #include <cglm/struct.h>
 #include <math.h>
 
 enum { CELLS = 160 }; // along the longer side of the picture
-
-// Of samples without a measure so many are below the top of the scale.
-#define TOP_PART 0.98
 
 /// Where the picture lies in the world: axes 0, 1, 2 are x, y, z.
 typedef struct Slice {
@@ -65,39 +63,6 @@ static FrStatus sample(const Slice *slice, Grid *grid, FrLighting *lighting,
     return status;
 }
 
-static int compare(const void *a, const void *b) {
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
-/// What the brightest colour stands for: full light, or nearly the brightest there is.
-static float top_of(const FrScene *scene, const Grid *grid) {
-    const FrLightParams *params = &scene->surroundings->light;
-    bool has_sky = scene->params->sun_strength > 0 || scene->params->sky_strength > 0;
-    if (params->relative || (params->by == FR_LIGHT_BY_VIEWS && has_sky) ||
-        params->by == FR_LIGHT_BY_SHADOWS) {
-        return 1;
-    }
-    size_t count = (size_t)grid->columns * grid->rows;
-    float *sorted = g_memdup2(grid->light, count * sizeof *sorted);
-    qsort(sorted, count, sizeof *sorted, compare);
-    float top = sorted[(size_t)(TOP_PART * (double)(count - 1))];
-    g_free(sorted);
-    return top > 0 ? top : 1;
-}
-
-/// From black over blue, red and yellow to white, evenly brighter.
-static void paint(uint8_t *pixel, float part) {
-    static const float colours[6][3] = {{8, 6, 18},    {48, 36, 128},  {148, 44, 118},
-                                        {226, 98, 62}, {250, 190, 74}, {255, 252, 226}};
-    float place = fminf(fmaxf(part, 0), 1) * 5;
-    int step = (int)fminf(place, 4);
-    for (int c = 0; c < 3; c++) {
-        float mixed = glm_lerp(colours[step][c], colours[step + 1][c], place - (float)step);
-        pixel[c] = (uint8_t)lroundf(mixed);
-    }
-}
-
 static void paint_light(const Grid *grid, float top, FrImage *image) {
     for (uint32_t y = 0; y < image->height; y++) {
         for (uint32_t x = 0; x < image->width; x++) {
@@ -108,8 +73,8 @@ static void paint_light(const Grid *grid, float top, FrImage *image) {
             const float *at = grid->light + (size_t)j * grid->columns + i;
             float lower = glm_lerp(at[0], at[1], u);
             float upper = glm_lerp(at[grid->columns], at[grid->columns + 1], u);
-            paint(image->pixels + ((size_t)y * image->width + x) * 3,
-                  glm_lerp(lower, upper, v) / top);
+            fr_light_scale_paint(image->pixels + ((size_t)y * image->width + x) * 3,
+                                 glm_lerp(lower, upper, v) / top);
         }
     }
 }
@@ -164,7 +129,8 @@ static FrStatus picture_of(const FrScene *scene, const Slice *slice, FrLighting 
     FrStatus status = sample(slice, &grid, lighting, context);
     if (status == FR_OK) {
         *image = fr_image_new(slice->width, slice->height, 3);
-        paint_light(&grid, top_of(scene, &grid), *image);
+        size_t count = (size_t)grid.columns * grid.rows;
+        paint_light(&grid, fr_light_scale_top(scene, grid.light, count), *image);
         draw_plants(scene, slice, *image);
     }
     g_free(grid.light);

@@ -150,8 +150,8 @@ FrStatus fr_render_check_size(const FrRenderParams *params, const FrContext *con
     return status;
 }
 
-static FrStatus find_view(const FrScene *scene, const char *name, const FrContext *context,
-                          const FrViewParams **view) {
+FrStatus fr_render_find_view(const FrScene *scene, const char *name, const FrContext *context,
+                             const FrViewParams **view) {
     *view = NULL;
     if (name == NULL || *name == '\0') {
         if (scene->views->len > 0) {
@@ -234,7 +234,7 @@ FrStatus fr_render(const FrScene *scene, const FrRenderParams *params, const FrS
     const FrViewParams *view = NULL;
     FrStatus status = fr_render_check_size(params, context);
     if (status == FR_OK) {
-        status = find_view(scene, params->view, context, &view);
+        status = fr_render_find_view(scene, params->view, context, &view);
     }
     FrWorld *world = NULL;
     if (status == FR_OK) {

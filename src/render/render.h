@@ -10,5 +10,8 @@
 FR_MUST_USE FrStatus fr_render_world(FrWorld *world, const FrViewParams *view, double stops,
                                      const FrRenderParams *params, const FrContext *context,
                                      FrImage **image);
+/// The view of that name, the first without one, NULL if there is none at all.
+FR_MUST_USE FrStatus fr_render_find_view(const FrScene *scene, const char *name,
+                                         const FrContext *context, const FrViewParams **view);
 /// Refuses pictures without pixels and those beyond the limits.
 FR_MUST_USE FrStatus fr_render_check_size(const FrRenderParams *params, const FrContext *context);

@@ -59,9 +59,90 @@ static void test_size(void) {
     g_assert_cmpint(status, ==, FR_ERR_LIMIT);
 }
 
+#define SIDE "<view name='side' azimuth='0' elevation='0'/></scene></frond>"
+
+/// A picture of points, seen straight from −y.
+static FrImage *draw_points(FrLightAt where, uint32_t count, int threads) {
+    FrContext context = fr_context_default();
+    context.pool = fr_pool_new(threads);
+    FrDocument *document;
+    FrScene *scene;
+    char *text = g_strndup(TEXT, strlen(TEXT) - strlen("</scene></frond>"));
+    char *whole = g_strconcat(text, SIDE, NULL);
+    FrSource *source = fr_source_new("light.frond", whole, strlen(whole));
+    g_assert_cmpint(fr_document_parse(source, NULL, &context, &document), ==, FR_OK);
+    g_assert_cmpint(fr_scene_build(document, -1, &context, &scene), ==, FR_OK);
+    FrRenderParams params;
+    fr_params_init(fr_render_table(), &params);
+    params.width = 180;
+    params.height = 66;
+    FrSkinParams skin = fr_skin_default();
+    FrImage *image;
+    g_assert_cmpint(fr_render_light_points(scene, where, count, &params, &skin, &context, &image),
+                    ==, FR_OK);
+    fr_params_clear(fr_render_table(), &params);
+    fr_scene_free(scene);
+    fr_document_free(document);
+    fr_source_unref(source);
+    fr_pool_free(context.pool);
+    g_free(text);
+    g_free(whole);
+    return image;
+}
+
+static bool is_coloured(const FrImage *image, uint32_t x, uint32_t y) {
+    const uint8_t *pixel = image->pixels + ((size_t)y * image->width + x) * 3;
+    return pixel[0] != pixel[1] || pixel[1] != pixel[2];
+}
+
+/// The brightest of the balls in some rows.
+static int brightest(const FrImage *image, uint32_t top, uint32_t bottom) {
+    int most = 0;
+    for (uint32_t y = top; y < bottom; y++) {
+        for (uint32_t x = 60; x < 120; x++) {
+            most = is_coloured(image, x, y) ? MAX(most, brightness(image, x, y)) : most;
+        }
+    }
+    return most;
+}
+
+static void test_grid(void) {
+    FrImage *image = draw_points(FR_LIGHT_AT_GRID, 30, 1);
+    // The plate is seen from its edge, a third up.
+    int above = brightest(image, 0, 36), below = brightest(image, 52, 66);
+    g_assert_cmpint(above, >, 650);
+    g_assert_cmpint(below, >, 0);
+    g_assert_cmpint(below, <, above / 2);
+    FrImage *again = draw_points(FR_LIGHT_AT_GRID, 30, 3);
+    g_assert_cmpint(memcmp(image->pixels, again->pixels, (size_t)3 * 180 * 66), ==, 0);
+    fr_image_unref(again);
+    fr_image_unref(image);
+}
+
+/// One tip has one ball, and its line leads up to the light.
+static void test_organs(void) {
+    FrImage *image = draw_points(FR_LIGHT_AT_ORGANS, 1, 1);
+    uint32_t count = 0, least[2] = {999, 999}, most[2] = {0, 0};
+    for (uint32_t i = 0; i < 180 * 66; i++) {
+        uint32_t at[2] = {i % 180, i / 180};
+        for (int c = 0; is_coloured(image, at[0], at[1]) && c < 2; c++) {
+            least[c] = MIN(least[c], at[c]);
+            most[c] = MAX(most[c], at[c]);
+            count += c == 0;
+        }
+    }
+    g_assert_cmpuint(count, >=, 4);
+    g_assert_cmpuint(most[0] - least[0], <=, 6);
+    g_assert_cmpuint(most[1] - least[1], >=, 3);
+    g_assert_cmpuint(least[0], >, 140); // the plant stands to the right
+    fr_image_unref(image);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/render/light_picture/it is dark below a plate", test_slice);
     g_test_add_func("/render/light_picture/sizes are checked as of other pictures", test_size);
+    g_test_add_func("/render/light_points/balls below a plate are darker", test_grid);
+    g_test_add_func("/render/light_points/every tip has a ball", test_organs);
     return g_test_run();
 }
