@@ -1,6 +1,8 @@
 // Derivations printed in The Algorithmic Beauty of Plants (Prusinkiewicz, Lindenmayer 1990).
 #include "lsystems.h"
 
+#include <math.h>
+
 static void test_algae(void) {
     CHECK_STEPS("w : A\np1 : A -> AB\np2 : B -> A\n", "A", "AB", "ABA", "ABAAB", "ABAABABA");
 }
@@ -90,6 +92,36 @@ static void test_monopodial(void) {
     }
 }
 
+// Fig 5.6 f and 5.8: the axis of a leaf after n steps is LA·(RAⁿ − 1)/(RA − 1) long; a rose leaf
+// has two teeth more every step.
+static void test_leaves(void) {
+    Derived d = begin("#define PD 1\nLsystem: 1\naxiom: {.A(0)}\n"
+                      "A(t) --> G(5,1.1)[-(60)B(t).][A(t+1)][+(60)B(t).]\n"
+                      "B(t) : t > 0 --> G(1,1.2)B(t-PD)\nG(s,r) --> G(s*r,r)\nendlsystem\n",
+                      1);
+    FrPlant *plant;
+    FrLdrawn drawn;
+    step(&d, 1);
+    check_now(&d, "{.G(5,1.1)[-(60)B(0).][A(1)][+(60)B(0).]}");
+    step(&d, 19);
+    g_assert_cmpint(fr_lderivation_plant(d.derivation, &d.context, &plant, &drawn), ==, FR_OK);
+    g_assert_cmpfloat_with_epsilon(drawn.max[1], 5 * (pow(1.1, 20) - 1) / 0.1, 1e-3);
+    g_assert_cmpuint(drawn.polygons, ==, 1);
+    fr_plant_free(plant);
+    end(&d);
+    d = begin("Lsystem: 1\naxiom: [{A(0,0).}][{A(0,1).}]\n"
+              "A(t,d) : d == 0 --> .G(5,1.15).[+(60)B(t)G(3,1.19,t).}][+(60)B(t){.]A(t+1,d)\n"
+              "A(t,d) : d == 1 --> .G(5,1.15).[-(60)B(t)G(3,1.19,t).}][-(60)B(t){.]A(t+1,d)\n"
+              "B(t) : t > 0 --> G(1.3,1.25)B(t-1)\nG(s,r) --> G(s*r,r)\n"
+              "G(s,r,t) : t > 1 --> G(s*r,r,t-1)\nendlsystem\n",
+              1);
+    step(&d, 25);
+    g_assert_cmpint(fr_lderivation_plant(d.derivation, &d.context, &plant, &drawn), ==, FR_OK);
+    g_assert_cmpuint(drawn.polygons, ==, 2 * 25);
+    fr_plant_free(plant);
+    end(&d);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/lsystem/published/algae grow as printed", test_algae);
@@ -103,5 +135,6 @@ int main(int argc, char **argv) {
     g_test_add_func("/lsystem/published/a bracketed plant grows as printed", test_bracketed);
     g_test_add_func("/lsystem/published/the monopodial tree has its modules on any threads",
                     test_monopodial);
+    g_test_add_func("/lsystem/published/leaves have their axes and teeth", test_leaves);
     return g_test_run();
 }

@@ -1,0 +1,2 @@
+angle increment: 60
+initial line width: 1 pixels
