@@ -168,17 +168,20 @@ const FrLproduction *fr_lderive_maker(const FrLderivation *derivation, uint32_t 
                : &g_array_index(productions, FrLproduction, mark - 1);
 }
 
-FrStatus fr_lderive_depth(FrLderivation *derivation, const FrLsection *section,
-                          const FrContext *context, uint32_t *depth) {
-    *depth = 1;
+uint32_t fr_lderive_depth(FrLderivation *derivation, const FrLsection *section,
+                          const FrContext *context) {
     if (section->depth == FR_NONE) {
-        return FR_OK;
+        return 1;
     }
     double wanted = fr_lmachine_run(&derivation->machine, section->depth);
-    uint64_t most = MIN(context->limits.depth, DEEPEST);
-    *depth = (uint32_t)CLAMP(wanted, 0, (double)most);
-    return fr_limit_check((uint64_t)CLAMP(wanted, 0, 1e18), most, "depth", "'maximum depth'",
-                          place_span(derivation->system, section->depth), context->diags);
+    return (uint32_t)CLAMP(wanted, 0, (double)MIN(context->limits.depth, DEEPEST) + 1);
+}
+
+FrStatus fr_lderive_check_depth(const FrLderivation *derivation, uint32_t depth,
+                                const FrLproduction *production, uint64_t module,
+                                const FrContext *context) {
+    return fr_lderive_limit(derivation, depth, MIN(context->limits.depth, DEEPEST), "depth",
+                            production, NULL, module, context);
 }
 
 // ---- beginning --------------------------------------------------------------------------------

@@ -95,6 +95,11 @@ static void decompose(Step *step, guint offset, guint count, const FrLsite *site
             refuse(step, step->work, step->context->limits.modules, "modules", production);
             return;
         }
+        step->status = fr_lderive_check_depth(step->derivation, depth + 1, production,
+                                              step->derivation->machine.module, step->context);
+        if (step->status != FR_OK) {
+            return;
+        }
         guint begin = step->scratch->len;
         g_array_set_size(step->scratch, begin + production->word_count);
         fr_lmatch_produce(&step->matcher, production,
@@ -147,9 +152,7 @@ static void work_in(Step *step, FrLinstance *instance) {
         fr_lmatcher(step->derivation->system, &step->derivation->machine, instance->unit);
     step->section = &instance->unit->sections[FR_LDERIVE];
     step->decomposition = &instance->unit->sections[FR_LDECOMPOSE];
-    FrStatus status =
-        fr_lderive_depth(step->derivation, step->decomposition, step->context, &step->depth);
-    step->status = MAX(step->status, status);
+    step->depth = fr_lderive_depth(step->derivation, step->decomposition, step->context);
 }
 
 // Variables that belong to the caller are copied in on entry and back on return.

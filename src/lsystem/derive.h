@@ -70,9 +70,13 @@ FR_MUST_USE FrStatus fr_lderive_limit(const FrLderivation *derivation, uint64_t 
                                       uint64_t module, const FrContext *context);
 /// The production that a module comes from by the mark of its head; NULL: the axiom.
 const FrLproduction *fr_lderive_maker(const FrLderivation *derivation, uint32_t mark);
-/// `maximum depth` of a section (1 where it says nothing), or an error where that is too much.
-FR_MUST_USE FrStatus fr_lderive_depth(FrLderivation *derivation, const FrLsection *section,
-                                      const FrContext *context, uint32_t *depth);
+/// `maximum depth` of a section, 1 where it says nothing; at most one more than the limit allows.
+uint32_t fr_lderive_depth(FrLderivation *derivation, const FrLsection *section,
+                          const FrContext *context);
+/// The error of replacements that go deeper than the limit, whatever `maximum depth` says.
+FR_MUST_USE FrStatus fr_lderive_check_depth(const FrLderivation *derivation, uint32_t depth,
+                                            const FrLproduction *production, uint64_t module,
+                                            const FrContext *context);
 /// Tells what went wrong and forgets it.
 void fr_lderive_report(FrLderivation *derivation, FrLmachine *machine, const FrContext *context);
 /// FR_OK, or the error of a loop that does not end.

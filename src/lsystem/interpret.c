@@ -32,10 +32,7 @@ static void work_in(Reading *reading, FrLinstance *instance) {
     reading->matcher = fr_lmatcher(derivation->system, &derivation->machine,
                                    g_ptr_array_index(derivation->system->units, 0));
     reading->section = &instance->unit->sections[FR_LHOMOMORPHISM];
-    FrStatus status =
-        fr_lderive_depth(derivation, reading->section, reading->context, &reading->depth);
-    reading->status = MAX(reading->status, status);
-    reading->goes_on &= status == FR_OK;
+    reading->depth = fr_lderive_depth(derivation, reading->section, reading->context);
 }
 
 static void give(Reading *reading, const uint32_t *module) {
@@ -72,6 +69,12 @@ static void replace(Reading *reading, guint offset, guint count, const FrLsite *
                                                reading->context->limits.modules, "modules",
                                                production, NULL, reading->origin, reading->context);
             reading->goes_on = false;
+            return;
+        }
+        reading->status = fr_lderive_check_depth(reading->derivation, depth + 1, production,
+                                                 reading->origin, reading->context);
+        reading->goes_on &= reading->status == FR_OK;
+        if (!reading->goes_on) {
             return;
         }
         guint begin = reading->scratch->len;

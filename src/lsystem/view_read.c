@@ -181,7 +181,12 @@ static bool read_file(Reader *reader, const char *label, char **words, guint cou
     FrLview *view = reader->view;
     bool is_read = true;
     if (is_function) {
+        guint before = view->functions->len;
         is_read = fr_lcompanion_functions(source, view->functions, count > 1 ? atoi(words[1]) : 0);
+        // Only those of a set are known by their names.
+        for (guint i = before; i < view->functions->len && strcmp(label, "function") == 0; i++) {
+            g_clear_pointer(&g_array_index(view->functions, FrLspline, i).name, g_free);
+        }
     } else if (is_contour || is_curve) {
         int samples = !is_curve ? 0 : count > 1 ? MAX(atoi(words[1]), 2) : 100;
         is_read = fr_lcompanion_contour(source, is_curve ? view->curves : view->contours,

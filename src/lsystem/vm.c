@@ -95,7 +95,8 @@ static void print(FrLmachine *machine, const FrLcode *code, const double *argume
         }
         // Only flags, width and precision reach the C library; the conversion is one of ours.
         size_t length = 1 + strspn(at + 1, "-+ 0#.123456789");
-        char conversion = at[length];
+        size_t sized = length + strspn(at + length, "lLh");
+        char conversion = at[sized];
         char format[24];
         if (length < 8 && conversion != '\0' && strchr("fgeFGEdi", conversion) != NULL) {
             double value = used < code->n ? arguments[used] : 0;
@@ -106,7 +107,7 @@ static void print(FrLmachine *machine, const FrLcode *code, const double *argume
             char buffer[512];
             g_ascii_formatd(buffer, sizeof buffer, format, value);
             g_string_append(out, buffer);
-            at += length + 1;
+            at += sized + 1;
         } else {
             g_string_append_len(out, at, (gssize)length);
             at += length;

@@ -151,7 +151,7 @@ static char *function_value(const char *samples, const char *x) {
                                     samples);
     g_assert_true(g_file_set_contents(path, content, -1, NULL));
     FrContext context = fr_context_default();
-    FrSource *source = fr_source_new("test.v", "function: f.func\n", 17);
+    FrSource *source = fr_source_new("test.v", "function set: f.func\n", 21);
     FrLview *view;
     g_assert_cmpint(fr_lview_read(source, folder, &context, &view), ==, FR_OK);
     char *text = g_strdup_printf("Lsystem: 1\naxiom: A(func(ramp,%s))\nX --> X\nendlsystem\n", x);

@@ -40,8 +40,8 @@ static const Kind kinds[] = {
     {HEAD "A(x) --> A(x)A(x)A(x)\ndecomposition\nmaximum depth: 40\nA(x) --> A(x)A(x)\n"
           "endlsystem\n",
      1, FR_ERR_LIMIT, "limit-modules", 7, 1, "(step 1, module 1)"},
-    {HEAD "A(x) --> A(x)\ndecomposition\nmaximum depth: 1000000000\nB --> B\nendlsystem\n", 1,
-     FR_ERR_LIMIT, "limit-depth", 6, 16, "asks for 1000000000"},
+    {HEAD "A(x) --> A(x)\ndecomposition\nmaximum depth: 1000000000\nA(x) --> A(x+1)\nendlsystem\n",
+     1, FR_ERR_LIMIT, "limit-depth", 7, 1, "(step 1, module 1) asks for 4097"},
     {"Lsystem: 1\nderivation length: 3000000000\naxiom: A\nA --> A\nendlsystem\n", 0, FR_ERR_LIMIT,
      "limit-steps", 2, 20, "3000000000"},
     {HEAD "A(x) --> A(exp(x*1000))\nendlsystem\n", 2, FR_OK, "no-number", 4, 12,

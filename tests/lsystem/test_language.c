@@ -288,6 +288,32 @@ static void test_truth(void) {
     }
 }
 
+static void append(void *user, const char *text) {
+    g_string_append(user, text);
+}
+
+// Sizes of conversions are read over, as all numbers are doubles.
+static void test_print(void) {
+    FrContext context = fr_context_default();
+    const char text[] =
+        "Lsystem: 1\nStart: {printf(\"%.lf %5.2lf|%g%%\", 3, 1.5, 7);}\naxiom: A\nA --> A\n"
+        "endlsystem\n";
+    FrSource *source = fr_source_new("test.l", text, sizeof text - 1);
+    GString *out = g_string_new(NULL);
+    FrLsettings settings = fr_lsettings_default();
+    settings.print = append;
+    settings.print_user = out;
+    FrLsystem *system;
+    FrLderivation *derivation;
+    g_assert_cmpint(fr_lsystem_compile(source, NULL, &context, &system), ==, FR_OK);
+    g_assert_cmpint(fr_lderivation_new(system, &settings, &context, &derivation), ==, FR_OK);
+    g_assert_cmpstr(out->str, ==, "3  1.50|7%");
+    fr_lderivation_free(derivation);
+    fr_lsystem_free(system);
+    fr_source_unref(source);
+    g_string_free(out, TRUE);
+}
+
 static void test_paper(void) {
     CHECK_STEPS("w : AI(0.5)W(0)\nf(i) = 2*i\np1 : A -> FA : 1\np2 : I(i) < W(0) -> W(fi)\n",
                 "AI(0.5)W(0)", "FAI(0.5)W(1)", "FFAI(0.5)W(1)");
@@ -315,6 +341,7 @@ int main(int argc, char **argv) {
         {"variables of a production keep their values", test_static_locals},
         {"blocks run as in cpfg", test_blocks},
         {"truth has the values of cpfg", test_truth},
+        {"printf prints numbers", test_print},
         {"arrays are filled and their indices clamped", test_arrays},
         {"right contexts skip branches as published", test_right_context},
         {"left contexts lead to the root", test_left_context},

@@ -105,7 +105,7 @@ static void test_companions(void) {
                "HEADING X: 0 Y: 1 Z: 0\nUP X: 0 Y: 0 Z: 1\nSIZE: 1\nleaf\n"
                "0 0 0 0.3 0 0 0.6 0 0 1 0 0\n0 0.3 0 0.3 0.3 0 0.6 0.3 0 1 0.3 0\n"
                "0 0.6 0 0.3 0.6 0 0.6 0.6 0 1 0.6 0\n0 1 0 0.3 1 0 0.6 1 0 1 1 0\n");
-    FrLview *view = read_view("function: f.func\ncontour: 1 c.con\nsurface: l l.s 3 2 2\n"
+    FrLview *view = read_view("function set: f.func\ncontour: 1 c.con\nsurface: l l.s 3 2 2\n"
                               "line style: cylinder\n",
                               folder, NULL, FR_OK);
     Drawn made = draw("Lsystem: 1\naxiom: A(func(ramp,0.25))~lF@#(1)@GsFf@GeF\nX --> X\n"
@@ -137,6 +137,24 @@ static void test_companions(void) {
     g_free(folder);
 }
 
+// cpfg's own models assign to variables called like functions of `function:` lines.
+static void test_names(void) {
+    char *folder = g_dir_make_tmp("frond-view-XXXXXX", NULL);
+    write_file(folder, "f.func", "fver 1 1\nname: rho\npoints: 4\n0 0\n0.3 0.3\n0.7 0.7\n1 1\n");
+    FrLview *view = read_view("function: f.func 100\n", folder, NULL, FR_OK);
+    Drawn made = draw("Lsystem: 1\nStart: {rho = 0.5;}\naxiom: A(rho)\nX --> X\n"
+                      "endlsystem\n",
+                      view);
+    g_assert_cmpstr(made.string, ==, "A(0.5)");
+    clear(&made);
+    fr_lview_free(view);
+    char *path = g_build_filename(folder, "f.func", NULL);
+    g_remove(path);
+    g_rmdir(folder);
+    g_free(path);
+    g_free(folder);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/lsystem/view/angles, scale and width begin as it says", test_angles);
@@ -144,5 +162,6 @@ int main(int argc, char **argv) {
     g_test_add_func("/lsystem/view/unknown commands are warnings, missing files errors",
                     test_unknown);
     g_test_add_func("/lsystem/view/functions, contours and surfaces are read", test_companions);
+    g_test_add_func("/lsystem/view/only functions of a set have names", test_names);
     return g_test_run();
 }
