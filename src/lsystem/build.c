@@ -53,6 +53,11 @@ FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *co
     for (size_t i = 0; i < settings->colour_count; i++) {
         builder->colours[i] = fr_plant_add_material(builder->plant, settings->colours[i]);
     }
+    const FrLview *view = builder->view;
+    builder->section = view->section == NULL || view->style != FR_LSTYLE_CYLINDER
+                           ? FR_NONE
+                           : fr_plant_add_profile(builder->plant, (const double(*)[2])view->section,
+                                                  view->section_count, true);
     builder->palette = settings->palette;
     builder->unit = settings->unit;
     builder->sites = settings->sites;
@@ -280,6 +285,7 @@ static uint32_t begin_axis(FrLbuilder *builder, FrLstand stand, const FrLsegment
     axes->base_radius[axis] = segment->start_width / 2;
     axes->component[axis] = component_of(builder, segment->maker);
     axes->material[axis] = painted(builder, segment->colour, builder->wood);
+    axes->profile[axis] = builder->section;
     axes->path[axis] = fr_key_child(fr_key_root(0), segment->module);
     return axis;
 }

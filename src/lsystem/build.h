@@ -16,6 +16,7 @@ struct FrLbuilder {
     uint32_t maker;       ///< mark of the module at work
     uint64_t module;      ///< its index in the string
     uint32_t wood, leaf;  ///< materials
+    uint32_t section;     ///< profile of segments, FR_NONE: round
     uint32_t *colours;    ///< materials of the colours from 1
     uint32_t colour_count;
     FrMaterial *const *palette; ///< by colour index, NULL

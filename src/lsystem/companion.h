@@ -18,5 +18,8 @@ void fr_lcurve_point(const FrLcontour *curve, double t, double out[3]);
 /// Bézier patches (.s); appends FrLsurface. `s` and `t`: quads a side, 0: as the file says.
 bool fr_lcompanion_patches(FrSource *source, GArray *surfaces, char symbol, double size, int s,
                            int t);
+/// The cross-section of a surface half way along its heading, as points (left, −up) of a radius of
+/// 1 where the surface is as wide as a line; NULL if there are fewer than 3. Free with g_free().
+double (*fr_lcompanion_section(const FrLsurface *surface, uint32_t *count))[2];
 /// Triangles (tsurface); appends FrLsurface.
 bool fr_lcompanion_triangles(FrSource *source, GArray *surfaces, char symbol, double size);

@@ -181,6 +181,7 @@ static void include_ring(FrLbuilder *builder, const Span *span, const FrLpoint *
 // ---- what the plant gets ----------------------------------------------------------------------
 
 static void set_profile(FrLbuilder *builder, uint32_t axis, const FrLcontour *contour) {
+    builder->plant->axes.profile[axis] = FR_NONE;
     if (contour == NULL) {
         return;
     }

@@ -162,6 +162,29 @@ bool fr_lcompanion_patches(FrSource *source, GArray *surfaces, char symbol, doub
     return add_surface(surfaces, &basis, size / basis.size, symbol, corners, hull);
 }
 
+double (*fr_lcompanion_section(const FrLsurface *surface, uint32_t *count))[2] {
+    enum { STEPS = 8 };
+    uint32_t patches = surface->hull_count / 16;
+    double(*section)[2] = g_malloc_n(patches * STEPS + 1, sizeof *section);
+    *count = 0;
+    for (uint32_t p = 0; p < patches; p++) {
+        const double(*points)[3] = (const double(*)[3])surface->hull + 16 * (size_t)p;
+        // Rows go around and columns along, or the other way round.
+        bool is_along = fabs(points[3][1] - points[0][1]) > fabs(points[12][1] - points[0][1]);
+        for (int i = 0; i < STEPS; i++) {
+            double at[3], part = (double)i / STEPS;
+            bezier(points, is_along ? part : 0.5, is_along ? 0.5 : part, at);
+            section[*count][0] = 2 * at[0];
+            section[(*count)++][1] = -2 * at[2];
+        }
+    }
+    if (*count < 3) {
+        g_free(section);
+        return NULL;
+    }
+    return section;
+}
+
 bool fr_lcompanion_triangles(FrSource *source, GArray *surfaces, char symbol, double size) {
     size_t bytes;
     char **lines = g_strsplit(fr_source_text(source, &bytes), "\n", -1);

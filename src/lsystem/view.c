@@ -45,6 +45,7 @@ void fr_lview_free(FrLview *view) {
         g_free(g_array_index(view->surfaces, FrLsurface, i).corners);
         g_free(g_array_index(view->surfaces, FrLsurface, i).hull);
     }
+    g_free(view->section);
     g_array_unref(view->tropisms);
     g_array_unref(view->functions);
     g_array_unref(view->contours);

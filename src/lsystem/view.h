@@ -59,11 +59,14 @@ struct FrLview {
     uint32_t contour_sides;
     int colour, colour_step;
     double old_direction[3], old_elasticity, old_step;
-    GArray *tropisms;  ///< FrLtropism
-    GArray *functions; ///< FrLspline
-    GArray *contours;  ///< FrLcontour
-    GArray *curves;    ///< FrLcontour
-    GArray *surfaces;  ///< FrLsurface
+    GArray *tropisms;     ///< FrLtropism
+    GArray *functions;    ///< FrLspline
+    GArray *contours;     ///< FrLcontour
+    GArray *curves;       ///< FrLcontour
+    GArray *surfaces;     ///< FrLsurface
+    double (*section)[2]; ///< of what `line:` draws segments with, closed: left and −up, for a
+                          ///< radius of 1; NULL: round
+    uint32_t section_count;
 };
 
 /// Defaults of all commands. Never NULL; fr_lview_free() frees it.

@@ -161,11 +161,41 @@ static FrSource *open_companion(Reader *reader, const char *name, bool is_needed
     return source;
 }
 
+/// `line: ~ file size`: segments of cylinders have the cross-section of that surface.
+static void read_line_surface(Reader *reader, char **words, guint count) {
+    guint file = count > 1 && strlen(words[0]) == 1 ? 1 : 0;
+    if (count <= file) {
+        warn(reader, "view-value", "a file name is missing: ", "line");
+        return;
+    }
+    FrSource *source = open_companion(reader, words[file], false);
+    if (source == NULL) {
+        return;
+    }
+    double size = count > file + 1 ? g_ascii_strtod(words[file + 1], NULL) : 1;
+    GArray *surfaces = g_array_new(FALSE, TRUE, sizeof(FrLsurface));
+    if (fr_lcompanion_patches(source, surfaces, '~', size, 1, 1)) {
+        FrLsurface *surface = &g_array_index(surfaces, FrLsurface, 0);
+        g_free(reader->view->section);
+        reader->view->section = fr_lcompanion_section(surface, &reader->view->section_count);
+        g_free(surface->corners);
+        g_free(surface->hull);
+    } else {
+        warn(reader, "view-file", "there is nothing to use in this file: ", words[file]);
+    }
+    g_array_unref(surfaces);
+    fr_source_unref(source);
+}
+
 /// Commands that name a file.
 static bool read_file(Reader *reader, const char *label, char **words, guint count) {
     bool is_surface = strcmp(label, "surface") == 0 || strcmp(label, "tsurface") == 0;
     bool is_contour = strcmp(label, "contour") == 0, is_curve = strcmp(label, "curve") == 0;
     bool is_function = g_str_has_prefix(label, "function");
+    if (strcmp(label, "line") == 0) {
+        read_line_surface(reader, words, count);
+        return true;
+    }
     if (!is_surface && !is_contour && !is_curve && !is_function) {
         return false;
     }
@@ -285,10 +315,6 @@ static void report_unknown(Reader *reader, const char *label) {
         if (strcmp(label, ignored[i]) == 0) {
             return;
         }
-    }
-    if (strcmp(label, "line") == 0) {
-        warn(reader, "left-out", "surfaces in the place of cylinders are not drawn: ", label);
-        return;
     }
     if (strcmp(label, "texture") == 0 || strcmp(label, "initial texture") == 0) {
         warn(reader, "left-out", "textures are not drawn: ", label);

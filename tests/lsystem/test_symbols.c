@@ -366,7 +366,7 @@ static void left_out(void) {
         g_assert_cmpuint(made.drawn.segments, ==, 1);
         forget(&made);
     }
-    static const char *const views[] = {"line: l a.s 1\n", "texture: F: a.rgb\n"};
+    static const char *const views[] = {"texture: F: a.rgb\n", "initial texture: 1\n"};
     for (size_t i = 0; i < G_N_ELEMENTS(views); i++) {
         Drawn made = draw(views[i], "F", NULL);
         g_assert_nonnull(strstr(made.said, "[left-out]"));

@@ -155,6 +155,38 @@ static void test_names(void) {
     g_free(folder);
 }
 
+// Two half shells, 1.4 wide at their control points and 1 high for a line as wide as 1.
+static void test_line(void) {
+    char *folder = g_dir_make_tmp("frond-view-XXXXXX", NULL);
+    write_file(folder, "line.s",
+               "-14 14 0 20 0 20\nCONTACT POINT X: 0 Y: 0 Z: 10\nEND POINT X: 0 Y: 20 Z: 10\n"
+               "HEADING X: 0 Y: 1 Z: 0\nUP X: 0 Y: 0 Z: 1\nSIZE: 20\nLine_1\n"
+               "0 0 0 0 6 0 0 13 0 0 20 0\n-14 0 0 -14 6 0 -14 13 0 -14 20 0\n"
+               "-14 0 20 -14 6 20 -14 13 20 -14 20 20\n0 0 20 0 6 20 0 13 20 0 20 20\nLine_2\n"
+               "0 0 20 0 6 20 0 13 20 0 20 20\n14 0 20 14 6 20 14 13 20 14 20 20\n"
+               "14 0 0 14 6 0 14 13 0 14 20 0\n0 0 0 0 6 0 0 13 0 0 20 0\n");
+    FrLview *view = read_view("line style: cylinder\nline: ~ line.s 1\n", folder, NULL, FR_OK);
+    Drawn made = draw("w : F[+F]F\n", view);
+    g_assert_cmpuint(made.plant->axes.profile[0], ==, made.plant->axes.profile[1]);
+    const FrProfile *profile =
+        &g_array_index(made.plant->profiles, FrProfile, made.plant->axes.profile[0]);
+    double wide = 0, high = 0;
+    for (uint32_t i = 0; i < profile->count; i++) {
+        wide = fmax(wide, fabs(profile->points[i][0]));
+        high = fmax(high, fabs(profile->points[i][1]));
+    }
+    g_assert_true(profile->is_closed);
+    g_assert_cmpfloat_with_epsilon(wide, 0.75 * 1.4, 1e-6); // Bernstein: 3/8 + 3/8 in the middle
+    g_assert_cmpfloat_with_epsilon(high, 1, 1e-6);
+    clear(&made);
+    fr_lview_free(view);
+    char *path = g_build_filename(folder, "line.s", NULL);
+    g_remove(path);
+    g_rmdir(folder);
+    g_free(path);
+    g_free(folder);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/lsystem/view/angles, scale and width begin as it says", test_angles);
@@ -163,5 +195,6 @@ int main(int argc, char **argv) {
                     test_unknown);
     g_test_add_func("/lsystem/view/functions, contours and surfaces are read", test_companions);
     g_test_add_func("/lsystem/view/only functions of a set have names", test_names);
+    g_test_add_func("/lsystem/view/segments have the section of a line's surface", test_line);
     return g_test_run();
 }
