@@ -25,15 +25,6 @@ typedef enum FrNurbsFrames {
                        ///< the other way
 } FrNurbsFrames;
 
-/// What the radii of branches follow.
-typedef enum FrNurbsWeights {
-    FR_WEIGHTS_OWN,      ///< those of the plant
-    FR_WEIGHTS_WEIBEL,   ///< generations from the base
-    FR_WEIGHTS_STRAHLER, ///< orders from the tips
-    FR_WEIGHTS_STRANDS,  ///< √ of the number of tips above (Holton 1994)
-    FR_WEIGHTS_PIPE,     ///< the pipe model
-} FrNurbsWeights;
-
 #define FR_NURBS_WEIGHT_PARAMS(X)                                                                  \
     X(CHOICE, weights, "own", 0, 0, "", "own weibel strahler strands pipe",                        \
       "radii of branches: the plant's own, by an order of its branches, by the tips they bear, "   \
@@ -72,7 +63,12 @@ typedef enum FrNurbsWeights {
 
 #define FR_NURBS_STEP_PARAMS(X)                                                                    \
     X(CHOICE, step, "ap214", 0, 0, "", "ap214 ap203", "application protocol of STEP files")        \
-    X(SWITCH, share, "yes", 0, 1, "", "", "in STEP files: equal organs are written once")
+    X(CHOICE, share, "equal", 0, 0, "", "no equal near",                                           \
+      "in STEP files: organs of equal shape and size are written once, or also those that are "    \
+      "near in size, which become equal: 2 % larger at most")
+
+enum { FR_STEP_AP214, FR_STEP_AP203 };
+enum { FR_SHARE_NO, FR_SHARE_EQUAL, FR_SHARE_NEAR };
 
 /// Settings of a rational skin. X rows as in param.h.
 #define FR_NURBS_PARAMS(X)                                                                         \
@@ -116,8 +112,8 @@ typedef struct FrNurbsPiece {
 /// An organ whose surfaces are those of its shape, placed.
 typedef struct FrNurbsCopy {
     uint32_t organ, piece_count;
-    uint64_t first_piece;     ///< of the shape
-    double axes[3][3], at[3]; ///< where its x, y, z lie, all of one length; its origin
+    uint64_t first_piece;     ///< of the shape in its size
+    double axes[3][3], at[3]; ///< where its x, y, z lie, of length 1; its origin
 } FrNurbsCopy;
 
 typedef struct FrNurbsSkin {
@@ -137,7 +133,7 @@ FR_API FrNurbsParams fr_nurbs_default(void);
 /// FR_ERR_LIMIT if they would take too many bytes; then *skin is NULL and nothing was allocated.
 FR_API FR_MUST_USE FrStatus fr_nurbs_plant(const FrPlant *plant, const FrNurbsParams *params,
                                            const FrContext *context, FrNurbsSkin **skin);
-/// The same, but organs that nothing bends are copies if `params` says `share`.
+/// The same, but organs that nothing bends and that have their like are copies, as `share` says.
 FR_API FR_MUST_USE FrStatus fr_nurbs_plant_shared(const FrPlant *plant, const FrNurbsParams *params,
                                                   const FrContext *context, FrNurbsSkin **skin);
 /// Surfaces with those of all copies counted.

@@ -313,6 +313,19 @@ FR_API void fr_plant_botanical(const FrPlant *plant, uint32_t *order);
 /// children's r^e, tips have `tip_radius`. Sets node radii and, to the radius of their first node,
 /// the base radii of axes. exponent in [1, 4].
 FR_API void fr_plant_pipe_radii(FrPlant *plant, double exponent, double tip_radius);
+/// What the radii of branches follow.
+typedef enum FrWeights {
+    FR_WEIGHTS_OWN,      ///< those that the plant has
+    FR_WEIGHTS_WEIBEL,   ///< generations from the base
+    FR_WEIGHTS_STRAHLER, ///< orders from the tips
+    FR_WEIGHTS_STRANDS,  ///< √ of the number of tips above (Holton 1994)
+    FR_WEIGHTS_PIPE,     ///< the pipe model
+} FrWeights;
+
+/// Sets all radii by weights: `thinnest` at tips, `ratio` from one order to the next, `exponent` of
+/// the pipe model.
+FR_API void fr_plant_weigh(FrPlant *plant, FrWeights weights, double thinnest, double ratio,
+                           double exponent);
 /// Removes what is marked FR_SHED and everything borne by it: with an internode go the rest of its
 /// axis and its branches, organs and buds. The order of what stays is kept.
 FR_API void fr_plant_compact(FrPlant *plant);

@@ -38,12 +38,27 @@ void fr_step_real(FrStep *step, double value, int digits) {
     fr_output_bytes(&step->output, text, (size_t)length);
 }
 
-static uint64_t put_vector(FrStep *step, const char *kind, const double v[3]) {
+/// A length in metres, to a tenth of what the file says two points are apart at least.
+static void put_length(FrStep *step, double value) {
+    double rounded = nearbyint(value * 1e8) * 1e-8;
+    fr_step_real(step, rounded + 0.0, fabs(rounded) < 10.0 ? 9 : 15);
+}
+
+uint64_t fr_step_direction(FrStep *step, const double v[3]) {
     uint64_t entity = fr_step_begin(step);
-    fr_step_text(step, kind);
     for (int k = 0; k < 3; k++) {
-        fr_step_text(step, k > 0 ? "," : "('',(");
-        fr_step_real(step, v[k], 15);
+        fr_step_text(step, k > 0 ? "," : "DIRECTION('',(");
+        fr_step_real(step, fabs(v[k]) < 1e-12 ? 0.0 : v[k], 10);
+    }
+    fr_step_text(step, "));\n");
+    return entity;
+}
+
+uint64_t fr_step_point(FrStep *step, const double at[3]) {
+    uint64_t entity = fr_step_begin(step);
+    for (int k = 0; k < 3; k++) {
+        fr_step_text(step, k > 0 ? "," : "CARTESIAN_POINT('',(");
+        put_length(step, at[k]);
     }
     fr_step_text(step, "));\n");
     return entity;
@@ -52,11 +67,11 @@ static uint64_t put_vector(FrStep *step, const char *kind, const double v[3]) {
 static uint64_t put_point(FrStep *step, const double point[4]) {
     double at[4];
     fr_io_nurbs_posed(step->pose, point, at);
-    return put_vector(step, "CARTESIAN_POINT", at);
+    return fr_step_point(step, at);
 }
 
-static uint64_t put_vertex(FrStep *step, const double point[4]) {
-    uint64_t at = put_point(step, point), entity = fr_step_begin(step);
+static uint64_t put_vertex(FrStep *step, uint64_t at) {
+    uint64_t entity = fr_step_begin(step);
     fr_step_text(step, "VERTEX_POINT('',");
     fr_step_reference(step, at);
     fr_step_text(step, ");\n");
@@ -75,7 +90,7 @@ static void put_knots(FrStep *step, const double *knots, uint32_t count, bool is
         if (is_multiplicity) {
             fr_output_integer(&step->output, next - i);
         } else {
-            fr_step_real(step, knots[i], 17);
+            fr_step_real(step, knots[i], 12);
         }
         i = next;
     }
@@ -85,24 +100,22 @@ static void put_knots(FrStep *step, const double *knots, uint32_t count, bool is
 /// A side of a surface: its points are `stride` apart.
 typedef struct FrSide {
     const double (*points)[4];
+    const uint64_t *entities; ///< of the points
     size_t stride;
     uint32_t count, degree;
     const double *knots;
 } FrSide;
 
 static uint64_t put_curve(FrStep *step, const FrSide *side) {
-    g_array_set_size(step->scratch, 0);
-    for (uint32_t i = 0; i < side->count; i++) {
-        uint64_t point = put_point(step, side->points[i * side->stride]);
-        g_array_append_val(step->scratch, point);
-    }
     uint64_t entity = fr_step_begin(step);
     uint32_t knots = side->count + side->degree + 1;
     fr_step_text(step, "(BOUNDED_CURVE()B_SPLINE_CURVE(");
     fr_output_integer(&step->output, side->degree);
-    fr_step_text(step, ",");
-    fr_step_references(step, (const uint64_t *)(void *)step->scratch->data, side->count);
-    fr_step_text(step, ",.UNSPECIFIED.,.F.,.F.)B_SPLINE_CURVE_WITH_KNOTS(");
+    for (uint32_t i = 0; i < side->count; i++) {
+        fr_step_text(step, i > 0 ? "," : ",(");
+        fr_step_reference(step, side->entities[i * side->stride]);
+    }
+    fr_step_text(step, "),.UNSPECIFIED.,.F.,.F.)B_SPLINE_CURVE_WITH_KNOTS(");
     put_knots(step, side->knots, knots, true);
     fr_step_text(step, ",");
     put_knots(step, side->knots, knots, false);
@@ -110,7 +123,7 @@ static uint64_t put_curve(FrStep *step, const FrSide *side) {
                        "RATIONAL_B_SPLINE_CURVE(");
     for (uint32_t i = 0; i < side->count; i++) {
         fr_step_text(step, i > 0 ? "," : "(");
-        fr_step_real(step, side->points[i * side->stride][3], 17);
+        fr_step_real(step, side->points[i * side->stride][3], 12);
     }
     fr_step_text(step, "))REPRESENTATION_ITEM(''));\n");
     return entity;
@@ -128,14 +141,21 @@ static uint64_t put_edge(FrStep *step, const FrSide *side, uint64_t from, uint64
     return entity;
 }
 
-static uint64_t put_surface(FrStep *step, const FrNurbsSurface *s) {
+/// Writes the control points of a surface into step->scratch; those that repeat one another are one.
+static const uint64_t *put_points(FrStep *step, const FrNurbsSurface *s) {
     size_t count = (size_t)s->count_u * s->count_v;
     g_array_set_size(step->scratch, 0);
     for (size_t i = 0; i < count; i++) {
-        uint64_t point = put_point(step, s->points[i]);
+        size_t first = i - i % s->count_u; // of its row: closed and shrunk ones come back to it
+        bool repeats = i > first && memcmp(s->points[i], s->points[first], 3 * sizeof(double)) == 0;
+        uint64_t point = repeats ? g_array_index(step->scratch, uint64_t, first)
+                                 : put_point(step, s->points[i]);
         g_array_append_val(step->scratch, point);
     }
-    const uint64_t *points = (const uint64_t *)(void *)step->scratch->data;
+    return (const uint64_t *)(void *)step->scratch->data;
+}
+
+static uint64_t put_surface(FrStep *step, const FrNurbsSurface *s, const uint64_t *points) {
     uint64_t entity = fr_step_begin(step);
     fr_step_text(step, "(BOUNDED_SURFACE()B_SPLINE_SURFACE(");
     fr_output_integer(&step->output, s->degree_u);
@@ -159,7 +179,7 @@ static uint64_t put_surface(FrStep *step, const FrNurbsSurface *s) {
     for (size_t i = 0; i < s->count_u; i++) {
         for (size_t j = 0; j < s->count_v; j++) {
             fr_step_text(step, j > 0 ? "," : i > 0 ? "),(" : "((");
-            fr_step_real(step, s->points[j * s->count_u + i][3], 17);
+            fr_step_real(step, s->points[j * s->count_u + i][3], 12);
         }
     }
     fr_step_text(step, ")))REPRESENTATION_ITEM('')SURFACE());\n");
@@ -175,12 +195,13 @@ typedef struct FrBounds {
     uint64_t edge[SIDES], corner[4];
 } FrBounds;
 
-static FrSide side_of(const FrNurbsSurface *s, int which) {
+static FrSide side_of(const FrNurbsSurface *s, const uint64_t *entities, int which) {
     size_t last_row = (size_t)(s->count_v - 1) * s->count_u;
     size_t first = which == TOP ? last_row : which == RIGHT ? s->count_u - 1 : 0;
     bool is_row = which == BOTTOM || which == TOP;
     return (FrSide){
         .points = s->points + first,
+        .entities = entities + first,
         .stride = is_row ? 1 : s->count_u,
         .count = is_row ? s->count_u : s->count_v,
         .degree = is_row ? s->degree_u : s->degree_v,
@@ -209,8 +230,8 @@ static bool is_same(const FrSide *a, const FrSide *b) {
 }
 
 /// Corners that one side or another joins are one vertex.
-static void find_corners(FrStep *step, const FrNurbsSurface *s, FrBounds *bounds,
-                         const bool shrunk[SIDES], bool closed_u, bool closed_v) {
+static void find_corners(FrStep *step, const FrNurbsSurface *s, const uint64_t *entities,
+                         FrBounds *bounds, const bool shrunk[SIDES], bool closed_u, bool closed_v) {
     size_t last_row = (size_t)(s->count_v - 1) * s->count_u;
     const size_t at[4] = {0, s->count_u - 1, last_row + s->count_u - 1, last_row};
     int same[4] = {0, 1, 2, 3};
@@ -227,22 +248,23 @@ static void find_corners(FrStep *step, const FrNurbsSurface *s, FrBounds *bounds
             bounds->corner[c] = same[d] == same[c] ? bounds->corner[d] : 0;
         }
         if (bounds->corner[c] == 0) {
-            bounds->corner[c] = put_vertex(step, s->points[at[c]]);
+            bounds->corner[c] = put_vertex(step, entities[at[c]]);
         }
     }
 }
 
 /// Writes the bounds that are not given yet.
-static void find_bounds(FrStep *step, const FrNurbsSurface *s, FrBounds *bounds) {
+static void find_bounds(FrStep *step, const FrNurbsSurface *s, const uint64_t *entities,
+                        FrBounds *bounds) {
     FrSide sides[SIDES];
     bool shrunk[SIDES];
     for (int i = 0; i < SIDES; i++) {
-        sides[i] = side_of(s, i);
+        sides[i] = side_of(s, entities, i);
         shrunk[i] = is_point(&sides[i]);
     }
     bool closed_u = is_same(&sides[LEFT], &sides[RIGHT]);
     bool closed_v = is_same(&sides[BOTTOM], &sides[TOP]);
-    find_corners(step, s, bounds, shrunk, closed_u, closed_v);
+    find_corners(step, s, entities, bounds, shrunk, closed_u, closed_v);
     // Edges go the way of the parameter.
     static const int begin[SIDES] = {0, 1, 3, 0}, end[SIDES] = {1, 2, 2, 3};
     static const int twin[SIDES] = {TOP, LEFT, BOTTOM, RIGHT};
@@ -290,8 +312,9 @@ static uint64_t put_face(FrStep *step, uint64_t surface, const uint64_t *edges,
 }
 
 static uint64_t put_patch(FrStep *step, const FrNurbsSurface *s, FrBounds *bounds) {
-    find_bounds(step, s, bounds);
-    uint64_t surface = put_surface(step, s), edges[SIDES];
+    const uint64_t *points = put_points(step, s);
+    find_bounds(step, s, points, bounds);
+    uint64_t surface = put_surface(step, s, points), edges[SIDES];
     bool is_forward[SIDES];
     uint32_t count = 0;
     for (int i = 0; i < SIDES; i++) {
@@ -333,26 +356,32 @@ static bool cap_plane(const FrNurbsSurface *s, const double (*rim)[4], const dou
     return length > 0.0 && most < 1e-9 * fmax(reach, 1.0);
 }
 
-static uint64_t put_plane(FrStep *step, const double centre[4], const double normal[3]) {
-    const FrPose *pose = step->pose;
-    double turned[3] = {pose->cosine * normal[0] - pose->sine * normal[1],
-                        pose->sine * normal[0] + pose->cosine * normal[1], normal[2]};
-    int least = fabs(turned[0]) < 0.6 ? 0 : 1;
-    double across[3] = {least == 0, least == 1, 0};
-    double along = turned[least], length = sqrt(1.0 - along * along);
-    for (int k = 0; k < 3; k++) {
-        across[k] = (across[k] - along * turned[k]) / length;
-    }
-    uint64_t point = put_point(step, centre), axis = put_vector(step, "DIRECTION", turned);
-    uint64_t reference = put_vector(step, "DIRECTION", across), place = fr_step_begin(step);
-    const uint64_t parts[] = {point, axis, reference};
+uint64_t fr_step_placement(FrStep *step, const double at[3], const double axis[3],
+                           const double across[3]) {
+    uint64_t point = fr_step_point(step, at), along = fr_step_direction(step, axis);
+    uint64_t reference = fr_step_direction(step, across), place = fr_step_begin(step);
+    const uint64_t parts[] = {point, along, reference};
     fr_step_text(step, "AXIS2_PLACEMENT_3D(''");
     for (int i = 0; i < 3; i++) {
         fr_step_text(step, ",");
         fr_step_reference(step, parts[i]);
     }
     fr_step_text(step, ");\n");
-    uint64_t plane = fr_step_begin(step);
+    return place;
+}
+
+static uint64_t put_plane(FrStep *step, const double centre[4], const double normal[3]) {
+    const FrPose *pose = step->pose;
+    double turned[3] = {pose->cosine * normal[0] - pose->sine * normal[1],
+                        pose->sine * normal[0] + pose->cosine * normal[1], normal[2]};
+    int least = fabs(turned[0]) < 0.6 ? 0 : 1;
+    double across[3] = {least == 0, least == 1, 0}, at[4];
+    double along = turned[least], length = sqrt(1.0 - along * along);
+    for (int k = 0; k < 3; k++) {
+        across[k] = (across[k] - along * turned[k]) / length;
+    }
+    fr_io_nurbs_posed(pose, centre, at);
+    uint64_t place = fr_step_placement(step, at, turned, across), plane = fr_step_begin(step);
     fr_step_text(step, "PLANE('',");
     fr_step_reference(step, place);
     fr_step_text(step, ");\n");

@@ -108,10 +108,8 @@ uint64_t fr_nurbs_leaf_bytes_most(void);
 void fr_nurbs_leaf(GArray *forms, const FrPlant *plant, const FrBlade *blade,
                    const FrNurbsParams *params);
 
-// ---- nurbs_weights.c, nurbs_factors.c: what changes the plant before, and organs after ---------
+// ---- nurbs_factors.c: what changes the plant before, and organs after --------------------------
 
-/// Radii by the weights of the settings.
-void fr_nurbs_weigh(FrPlant *plant, const FrNurbsParams *params);
 /// Wind, light or gravity act.
 bool fr_nurbs_is_blown(const FrNurbsParams *params);
 /// Bends the control points of an organ that has been placed; `pieces` are its surfaces and

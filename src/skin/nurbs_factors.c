@@ -146,7 +146,8 @@ FrPlant *fr_nurbs_posed(const FrPlant *plant, const FrNurbsParams *params) {
     }
     FrPlant *posed = fr_plant_refined(plant, joints);
     g_free(joints);
-    fr_nurbs_weigh(posed, params);
+    fr_plant_weigh(posed, (FrWeights)params->weights, params->thinnest, params->ratio,
+                   params->pipe_exponent);
     if (is_blown) {
         bend_branches(posed, params);
     }

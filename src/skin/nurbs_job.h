@@ -9,6 +9,7 @@
 typedef struct FrNurbsPlace {
     uint64_t piece, point, knot;
     uint32_t section; ///< tubes
+    uint32_t model;   ///< organs that are copies; FR_NONE
     uint32_t rows;    ///< of tubes, surfaces of organs; 0: nothing
 } FrNurbsPlace;
 
@@ -16,16 +17,21 @@ typedef struct FrNurbsPlace {
 typedef struct FrNurbsShapeForms {
     GArray *forms; ///< FrNurbsForm; NULL if no organ has it
     uint64_t knot, points, textures;
-    uint64_t texture;      ///< where its coordinates are kept
-    uint64_t piece, point; ///< where its own surfaces are kept, if copies need them
-    bool is_copied;
+    uint64_t texture; ///< where its coordinates are kept
 } FrNurbsShapeForms;
+
+/// A shape in one size, which copies are placements of.
+typedef struct FrNurbsModel {
+    uint32_t shape, uses;
+    double scale;
+    uint64_t piece, point; ///< where its surfaces are kept
+} FrNurbsModel;
 
 /// One call of fr_nurbs_plant().
 typedef struct FrNurbsJob {
     const FrNurbsParams *params;
     const FrContext *context;
-    bool shares; ///< equal organs are copies
+    int share;   ///< which organs are copies
     FrPlan plan;
     FrScopes *scopes;    ///< of deformations; NULL
     FrPlant *moved;      ///< by the deformations of the skeleton; NULL
@@ -35,6 +41,7 @@ typedef struct FrNurbsJob {
     FrNurbsPlace *tubes;       ///< by tube
     FrNurbsPlace *organs;      ///< by organ
     FrNurbsShapeForms *shapes; ///< by shape
+    GArray *models;            ///< FrNurbsModel, in the order of their first organs
     FrNurbsPath *paths;        ///< by worker
     FrNurbsSkin *skin;
     uint32_t organ_count;

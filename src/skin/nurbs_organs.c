@@ -4,6 +4,8 @@
 #include <string.h>
 
 enum { ORGAN_GRAIN = 256, SHAPE_GRAIN = 4 };
+/// Sizes of copies that are near one another differ by this part.
+#define NEAR_STEP 0.02
 
 static void make_shapes(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
@@ -49,9 +51,52 @@ FrStatus fr_nurbs_make_shapes(FrNurbsJob *job) {
 }
 
 /// Nothing moves its control points but its place.
-static bool is_copy(const FrNurbsJob *job, uint32_t organ) {
-    return job->shares && !fr_nurbs_is_blown(job->params) &&
+static bool may_be_copy(const FrNurbsJob *job, uint32_t organ) {
+    return job->share != FR_SHARE_NO && !fr_nurbs_is_blown(job->params) &&
            fr_plan_scope(&job->plan, job->plan.plant->organs.deformer[organ]) == FR_NONE;
+}
+
+/// The size an organ has as a copy.
+static double size_of(const FrNurbsJob *job, uint32_t organ) {
+    double scale = (double)job->plan.plant->organs.scale[organ];
+    bool is_rounded = job->share == FR_SHARE_NEAR && scale > 1e-6;
+    return is_rounded ? exp(NEAR_STEP * ceil(log(scale) / NEAR_STEP)) : scale;
+}
+
+static bool is_drawn(const FrNurbsJob *job, uint32_t organ) {
+    uint32_t form = job->plan.plant->organs.shape[organ];
+    return form < job->plan.plant->shapes->len && job->shapes[form].forms != NULL &&
+           job->shapes[form].forms->len > 0 && fr_organ_is_drawn(&job->plan, organ);
+}
+
+/// Finds which organs have their like.
+static void find_models(FrNurbsJob *job) {
+    GHashTable *index = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
+    for (uint32_t i = 0; i < job->organ_count; i++) {
+        job->organs[i].model = FR_NONE;
+        if (!may_be_copy(job, i) || !is_drawn(job, i)) {
+            continue;
+        }
+        float scale = (float)size_of(job, i);
+        uint32_t shape = job->plan.plant->organs.shape[i], bits;
+        memcpy(&bits, &scale, sizeof bits);
+        uint64_t key = (uint64_t)shape << 32 | bits;
+        gpointer found = g_hash_table_lookup(index, &key);
+        if (found == NULL) {
+            FrNurbsModel model = {.shape = shape, .scale = (double)scale};
+            g_array_append_val(job->models, model);
+            found = GUINT_TO_POINTER(job->models->len);
+            g_hash_table_insert(index, g_memdup2(&key, sizeof key), found);
+        }
+        job->organs[i].model = GPOINTER_TO_UINT(found) - 1;
+        g_array_index(job->models, FrNurbsModel, job->organs[i].model).uses++;
+    }
+    g_hash_table_unref(index);
+}
+
+static bool is_copy(const FrNurbsJob *job, uint32_t organ) {
+    uint32_t model = job->organs[organ].model;
+    return model != FR_NONE && g_array_index(job->models, FrNurbsModel, model).uses > 1;
 }
 
 static void place_shapes(FrNurbsJob *job) {
@@ -67,16 +112,16 @@ static void place_shapes(FrNurbsJob *job) {
     }
 }
 
-// Shapes of copies come last, with surfaces of their own.
-static void place_copied(FrNurbsJob *job) {
+// Models of copies come last, with surfaces of their own.
+static void place_models(FrNurbsJob *job) {
     job->own_pieces = job->pieces;
-    for (uint32_t s = 0; s < job->plan.plant->shapes->len; s++) {
-        FrNurbsShapeForms *shape = &job->shapes[s];
-        if (shape->is_copied) {
-            shape->piece = job->pieces;
-            shape->point = job->points;
-            job->pieces += shape->forms->len;
-            job->points += shape->points;
+    for (uint32_t m = 0; m < job->models->len; m++) {
+        FrNurbsModel *model = &g_array_index(job->models, FrNurbsModel, m);
+        if (model->uses > 1) {
+            model->piece = job->pieces;
+            model->point = job->points;
+            job->pieces += job->shapes[model->shape].forms->len;
+            job->points += job->shapes[model->shape].points;
         }
     }
 }
@@ -84,25 +129,24 @@ static void place_copied(FrNurbsJob *job) {
 void fr_nurbs_place_organs(FrNurbsJob *job) {
     const FrPlant *plant = job->plan.plant;
     place_shapes(job);
+    find_models(job);
     for (uint32_t i = 0; i < job->organ_count; i++) {
-        uint32_t form = plant->organs.shape[i];
-        if (form >= plant->shapes->len || job->shapes[form].forms == NULL ||
-            job->shapes[form].forms->len == 0 || !fr_organ_is_drawn(&job->plan, i)) {
+        if (!is_drawn(job, i)) {
             continue;
         }
         FrNurbsPlace *place = &job->organs[i];
-        place->rows = job->shapes[form].forms->len;
+        const FrNurbsShapeForms *shape = &job->shapes[plant->organs.shape[i]];
+        place->rows = shape->forms->len;
         if (is_copy(job, i)) {
             place->piece = job->copies++;
-            job->shapes[form].is_copied = true;
         } else {
             place->piece = job->pieces;
             place->point = job->points;
             job->pieces += place->rows;
-            job->points += job->shapes[form].points;
+            job->points += shape->points;
         }
     }
-    place_copied(job);
+    place_models(job);
 }
 
 static void write_shared(const FrNurbsJob *job, const FrNurbsShapeForms *shape) {
@@ -159,13 +203,13 @@ static void write_forms(const FrNurbsJob *job, const FrNurbsShapeForms *shape,
     }
 }
 
-static void pose_of(const FrPlant *plant, uint32_t organ, double axes[3][3], double at[3]) {
+static void pose_of(const FrPlant *plant, uint32_t organ, double scale, double axes[3][3],
+                    double at[3]) {
     vec3s position;
     versors rotation;
     fr_plant_organ_pose(plant, organ, &position, &rotation);
     const vec3s turned[3] = {fr_frame_left(rotation), fr_frame_up(rotation),
                              fr_frame_heading(rotation)};
-    double scale = (double)plant->organs.scale[organ];
     for (int k = 0; k < 3; k++) {
         at[k] = (double)position.raw[k];
         for (int a = 0; a < 3; a++) {
@@ -210,16 +254,19 @@ static void write_organs(void *data, size_t begin, size_t end, int worker) {
 }
 
 void fr_nurbs_write_organs(FrNurbsJob *job) {
-    static const double plain[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, origin[3] = {0};
+    static const double origin[3] = {0};
     for (uint32_t s = 0; s < job->plan.plant->shapes->len; s++) {
-        const FrNurbsShapeForms *shape = &job->shapes[s];
-        if (shape->forms != NULL) {
-            write_shared(job, shape);
+        if (job->shapes[s].forms != NULL) {
+            write_shared(job, &job->shapes[s]);
         }
-        if (shape->is_copied) {
+    }
+    for (uint32_t m = 0; m < job->models->len; m++) {
+        const FrNurbsModel *model = &g_array_index(job->models, FrNurbsModel, m);
+        const double axes[3][3] = {{model->scale, 0, 0}, {0, model->scale, 0}, {0, 0, model->scale}};
+        if (model->uses > 1) {
             FrNurbsPiece like = {.material = FR_NONE, .axis = FR_NONE, .organ = FR_NONE};
-            write_forms(job, shape, plain, origin, job->skin->points + shape->point,
-                        &job->skin->pieces[shape->piece], like);
+            write_forms(job, &job->shapes[model->shape], axes, origin,
+                        job->skin->points + model->point, &job->skin->pieces[model->piece], like);
         }
     }
     fr_parallel_for(job->context->pool, job->organ_count, ORGAN_GRAIN, write_organs, job,

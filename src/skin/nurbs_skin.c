@@ -125,6 +125,7 @@ static void job_clear(FrNurbsJob *job, int workers) {
     for (int worker = 0; worker < workers; worker++) {
         fr_nurbs_path_clear(&job->paths[worker]);
     }
+    g_array_unref(job->models);
     g_free(job->shapes);
     g_free(job->paths);
     g_free(job->tubes);
@@ -156,11 +157,11 @@ static FrStatus run(FrNurbsJob *job) {
     return status;
 }
 
-static FrStatus skin_plant(const FrPlant *plant, const FrNurbsParams *params, bool shares,
+static FrStatus skin_plant(const FrPlant *plant, const FrNurbsParams *params, int share,
                            const FrContext *context, FrNurbsSkin **skin) {
     *skin = NULL;
     int workers = fr_pool_threads(context->pool);
-    FrNurbsJob job = {.params = params, .context = context, .shares = shares};
+    FrNurbsJob job = {.params = params, .context = context, .share = share};
     FrPlant *weighed = fr_nurbs_posed(plant, params);
     const FrPlant *before = weighed != NULL ? weighed : plant;
     const FrPlant *posed = begin_deforming(&job, before, workers);
@@ -171,6 +172,7 @@ static FrStatus skin_plant(const FrPlant *plant, const FrNurbsParams *params, bo
     job.tubes = g_new0(FrNurbsPlace, (size_t)job.plan.tubes->len + 1);
     job.organs = g_new0(FrNurbsPlace, (size_t)job.organ_count + 1);
     job.shapes = g_new0(FrNurbsShapeForms, (size_t)posed->shapes->len + 1);
+    job.models = g_array_new(FALSE, FALSE, sizeof(FrNurbsModel));
     job.paths = g_new0(FrNurbsPath, (size_t)workers);
     FrStatus status = run(&job);
     if (status == FR_OK) {
@@ -187,7 +189,7 @@ static FrStatus skin_plant(const FrPlant *plant, const FrNurbsParams *params, bo
 
 FrStatus fr_nurbs_plant(const FrPlant *plant, const FrNurbsParams *params, const FrContext *context,
                         FrNurbsSkin **skin) {
-    return skin_plant(plant, params, false, context, skin);
+    return skin_plant(plant, params, FR_SHARE_NO, context, skin);
 }
 
 FrStatus fr_nurbs_plant_shared(const FrPlant *plant, const FrNurbsParams *params,
