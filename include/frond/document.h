@@ -13,6 +13,7 @@
 #include "frond/nurbs_skin.h"
 #include "frond/pgraph.h"
 #include "frond/placing.h"
+#include "frond/ramified.h"
 #include "frond/surroundings.h"
 #include "frond/variation.h"
 
@@ -42,6 +43,7 @@ typedef enum FrPlantKind {
     FR_PLANT_PGRAPH,
     FR_PLANT_LSYSTEM,
     FR_PLANT_SKELETON,
+    FR_PLANT_RAMIFIED,
     FR_PLANT_VARIED,  ///< another plant of the document, varied
     FR_PLANT_SPECIES, ///< grows bud by bud among the others of its scene
 } FrPlantKind;
@@ -75,6 +77,7 @@ typedef struct FrPlantDef {
     FrLmodel *lsystem;       ///< for FR_PLANT_LSYSTEM, else NULL
     FrSkeleton *skeleton;    ///< for FR_PLANT_SKELETON, else NULL
     FrSpeciesDef *species;   ///< for FR_PLANT_SPECIES, else NULL
+    FrRamified *ramified;    ///< for FR_PLANT_RAMIFIED, else NULL
     FrVary *vary;   ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
     bool has_nurbs; ///< it has a `<nurbs>`: it is shown as rational surfaces …
     FrNurbsParams nurbs; ///< … with these settings, else with the usual ones

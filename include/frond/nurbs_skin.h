@@ -78,6 +78,8 @@ enum { FR_SHARE_NO, FR_SHARE_EQUAL, FR_SHARE_NEAR };
       "what a branch shares with its parent: the fork, two points, three for one curvature")       \
     X(CHOICE, frames, "minimal", 0, 0, "", "minimal frenet", "how profiles turn along a branch")   \
     X(INTEGER, profile_degree, "3", 1, 3, "", "", "profiles: 1 keeps corners, 3 is smooth")        \
+    X(SWITCH, corners, "yes", 0, 1, "", "",                                                        \
+      "more control points at bends that a surface would leave by more than a part of its radius") \
     X(SWITCH, caps, "yes", 0, 1, "", "", "close the ends of tubes")                                \
     X(SWITCH, foliage, "yes", 0, 1, "", "", "with organs; without: wood only")                     \
     FR_NURBS_WEIGHT_PARAMS(X)                                                                      \

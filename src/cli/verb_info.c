@@ -423,6 +423,7 @@ static bool check_paths(const CliOptions *options, const FrDocument *document) {
         const FrPgraph *graph = plant->pgraph;
         // What branches other plants have is known once they are grown.
         is_known = plant->kind == FR_PLANT_LSYSTEM || plant->kind == FR_PLANT_SKELETON ||
+                   plant->kind == FR_PLANT_RAMIFIED ||
                    fr_pgraph_find(graph, options->paths) != FR_NONE;
         for (uint32_t c = 0; c < fr_pgraph_count(graph); c++) {
             g_ptr_array_add(names, (char *)fr_pgraph_id(graph, c));

@@ -11,6 +11,7 @@ static void free_plant(void *data) {
     fr_number_clear(&plant->health);
     fr_skeleton_free(plant->skeleton);
     fr_species_def_free(plant->species);
+    fr_ramified_free(plant->ramified);
     fr_vary_free(plant->vary);
     g_ptr_array_unref(plant->sliders);
     g_free(plant->id);

@@ -89,7 +89,8 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                           .table = &plant_table,
                           .has_id = true,
                           .children = SET(SLIDER) | SET(PGRAPH) | SET(EDITS) | SET(LSYSTEM) |
-                                      SET(SKELETON) | SET(SPECIES) | SET(NURBS) | SET(VARY)},
+                                      SET(SKELETON) | SET(RAMIFIED) | SET(SPECIES) | SET(NURBS) |
+                                      SET(VARY)},
     [FR_ELEMENT_SLIDER] = {.name = "slider", .table = &slider_table, .has_id = true},
     [FR_ELEMENT_PGRAPH] = {.name = "pgraph",
                            .meaning = "linked components that are expanded to a plant "
@@ -111,6 +112,7 @@ static const FrElement elements[FR_ELEMENT_COMPONENT] = {
                           .children = SET(EDIT)},
     [FR_ELEMENT_EDIT] = {.name = "edit", .required = "at"},
     [FR_ELEMENT_SKELETON] = {.name = "skeleton", .is_once = true, .has_text = true},
+    [FR_ELEMENT_RAMIFIED] = {.name = "ramified", .is_once = true, .has_text = true},
     [FR_ELEMENT_NURBS] = {.name = "nurbs", .is_once = true},
     [FR_ELEMENT_SPECIES] = {.name = "species",
                             .is_once = true,
@@ -149,6 +151,7 @@ static const FrParamTable *table_elsewhere(FrElementId id) {
         [FR_ELEMENT_LSYSTEM] = fr_lsystem_table,
         [FR_ELEMENT_EDIT] = fr_edit_table,
         [FR_ELEMENT_SKELETON] = fr_skeleton_table,
+        [FR_ELEMENT_RAMIFIED] = fr_ramified_table,
         [FR_ELEMENT_NURBS] = fr_nurbs_table,
         [FR_ELEMENT_SPECIES] = fr_species_table,
         [FR_ELEMENT_ORDER] = fr_order_table,

@@ -12,6 +12,7 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
                    {FR_ELEMENT_LSYSTEM, FR_PLANT_LSYSTEM},
                    {FR_ELEMENT_SKELETON, FR_PLANT_SKELETON},
                    {FR_ELEMENT_SPECIES, FR_PLANT_SPECIES},
+                   {FR_ELEMENT_RAMIFIED, FR_PLANT_RAMIFIED},
                    {FR_ELEMENT_VARY, FR_PLANT_VARIED}};
     uint32_t definition = FR_NONE;
     const char *first = NULL;
@@ -33,7 +34,8 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
     }
     if (definition == FR_NONE) {
         fr_read_error(reader, "missing-element", reader->tree->nodes[node].name,
-                      "the plant '%s' has no <pgraph>, <lsystem>, <skeleton>, <species> or <vary>",
+                      "the plant '%s' has no <pgraph>, <lsystem>, <skeleton>, <ramified>, <species> "
+                      "or <vary>",
                       plant->id);
     } else if (plant->kind == FR_PLANT_VARIED) {
         if (plant->sliders->len > 0) {
@@ -47,6 +49,8 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
         plant->skeleton = fr_read_skeleton(reader, definition);
     } else if (plant->kind == FR_PLANT_SPECIES) {
         plant->species = fr_read_species(reader, definition);
+    } else if (plant->kind == FR_PLANT_RAMIFIED) {
+        plant->ramified = fr_read_ramified(reader, definition);
     } else {
         fr_read_pgraph(reader, definition, plant->pgraph);
         fr_read_check_sliders(reader, node, plant->pgraph);

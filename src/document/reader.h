@@ -58,6 +58,8 @@ void fr_read_check_grafts(FrReader *reader);
 void fr_read_edits(FrReader *reader, uint32_t plant, FrPgraph *graph);
 /// Reads a `<skeleton>` and its table.
 FrSkeleton *fr_read_skeleton(FrReader *reader, uint32_t node);
+/// Reads a `<ramified>` and its matrix.
+FrRamified *fr_read_ramified(FrReader *reader, uint32_t node);
 /// Reads a `<vary>`; NULL after an error that leaves nothing of it.
 FrVary *fr_read_vary(FrReader *reader, uint32_t node);
 /// Reports varied plants whose base is no other plant.

@@ -25,7 +25,8 @@ static void clear_target(void *data) {
 /// What a path calls an element, or NULL.
 static char *name_of(const FrXmlTree *tree, uint32_t node, FrElementId element) {
     const FrElementSet named = SET(SCENE) | SET(SUN) | SET(LIGHT) | SET(TERRAIN) | SET(LSYSTEM) |
-                               SET(NURBS) | SET(SPECIES) | SET(SLIDERS) | SET(GROWTH) | SET(VARY);
+                               SET(RAMIFIED) | SET(NURBS) | SET(SPECIES) | SET(SLIDERS) |
+                               SET(GROWTH) | SET(VARY);
     if ((named >> element & 1) != 0) {
         return g_strdup(fr_element(element).name);
     }

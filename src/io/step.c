@@ -139,8 +139,7 @@ static bool wants_203(const FrScene *scene, const FrIoOptions *options) {
 
 FrStatus fr_step_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                        const FrContext *context, FrIoStats *stats) {
-    FrStepFile file = {
-        .scene = scene, .context = context, .is_203 = wants_203(scene, options)};
+    FrStepFile file = {.scene = scene, .context = context, .is_203 = wants_203(scene, options)};
     gint64 start = g_get_monotonic_time();
     FrStatus status =
         fr_io_nurbs_make(&file.nurbs, scene, &options->nurbs, true, POINT_BYTES, context);

@@ -141,15 +141,16 @@ static uint64_t put_edge(FrStep *step, const FrSide *side, uint64_t from, uint64
     return entity;
 }
 
-/// Writes the control points of a surface into step->scratch; those that repeat one another are one.
+/// Writes the control points of a surface into step->scratch; those that repeat one another are
+/// one.
 static const uint64_t *put_points(FrStep *step, const FrNurbsSurface *s) {
     size_t count = (size_t)s->count_u * s->count_v;
     g_array_set_size(step->scratch, 0);
     for (size_t i = 0; i < count; i++) {
         size_t first = i - i % s->count_u; // of its row: closed and shrunk ones come back to it
         bool repeats = i > first && memcmp(s->points[i], s->points[first], 3 * sizeof(double)) == 0;
-        uint64_t point = repeats ? g_array_index(step->scratch, uint64_t, first)
-                                 : put_point(step, s->points[i]);
+        uint64_t point =
+            repeats ? g_array_index(step->scratch, uint64_t, first) : put_point(step, s->points[i]);
         g_array_append_val(step->scratch, point);
     }
     return (const uint64_t *)(void *)step->scratch->data;

@@ -12,11 +12,10 @@ static const char units[] =
     "#8=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-07),#5,'distance_accuracy_value','');\n"
     "#9=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#8))"
     "GLOBAL_UNIT_ASSIGNED_CONTEXT((#5,#6,#7))REPRESENTATION_CONTEXT('',''));\n";
-static const char head[] =
-    "ISO-10303-21;\nHEADER;\n"
-    "FILE_DESCRIPTION(('plants as rational B-spline surfaces'),'2;1');\n"
-    "FILE_NAME('','2000-01-01T00:00:00',(''),(''),'Frond " FR_VERSION "','Frond " FR_VERSION
-    "','');\n";
+static const char head[] = "ISO-10303-21;\nHEADER;\n"
+                           "FILE_DESCRIPTION(('plants as rational B-spline surfaces'),'2;1');\n"
+                           "FILE_NAME('','2000-01-01T00:00:00',(''),(''),'Frond " FR_VERSION
+                           "','Frond " FR_VERSION "','');\n";
 static const char head_214[] =
     "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n"
     "#1=APPLICATION_CONTEXT('automotive design');\n"

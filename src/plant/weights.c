@@ -1,7 +1,7 @@
 // Radii of branches by weights. Beneš, Generating a Model of Plant Using NURBS: the weight that an
 // order gives a branch is its radius. Weibel and Strahler: one thickness an order, `ratio` apart.
-// Holton. Strands, gravity and botanical tree imagery. Computer Graphics Forum 13(1), 1994: a branch
-// holds a strand for each tip above, and its cross-section grows with their number.
+// Holton. Strands, gravity and botanical tree imagery. Computer Graphics Forum 13(1), 1994: a
+// branch holds a strand for each tip above, and its cross-section grows with their number.
 #include "frond/plant.h"
 
 #include <math.h>

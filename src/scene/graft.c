@@ -112,6 +112,8 @@ static FrStatus grow(void *data, const FrGraftWish *wish, const FrContext *conte
         return fr_skeleton_grow(definition->skeleton, definition->id, context, plant);
     case FR_PLANT_SPECIES:
         return fr_ecosystem_grow_alone(grafter->document, definition, wish->key, context, plant);
+    case FR_PLANT_RAMIFIED:
+        return fr_ramified_grow(definition->ramified, definition->id, wish->key, context, plant);
     case FR_PLANT_VARIED:
         return grow_varied(g_hash_table_lookup(grafter->varied, definition), definition, wish,
                            context, plant);

@@ -58,9 +58,15 @@ static FrStatus grow_pgraph(const FrDocument *document, const FrPlantDef *defini
     return status;
 }
 
-static FrStatus grow_skeleton(const FrPlantDef *definition, const FrContext *context,
-                              FrScenePlant *made) {
-    FrStatus status = fr_skeleton_grow(definition->skeleton, definition->id, context, &made->plant);
+/// A skeleton, or a tree of forks.
+static FrStatus grow_lines(const FrPlantDef *definition, int64_t seed, const FrContext *context,
+                           FrScenePlant *made) {
+    uint64_t own_seed = seed < 0 ? definition->seed : (uint64_t)seed;
+    FrStatus status =
+        definition->kind == FR_PLANT_SKELETON
+            ? fr_skeleton_grow(definition->skeleton, definition->id, context, &made->plant)
+            : fr_ramified_grow(definition->ramified, definition->id, own_seed, context,
+                               &made->plant);
     if (status == FR_OK) {
         made->by_component = g_new0(uint64_t, made->plant->components->len + 1);
     }
@@ -97,8 +103,8 @@ FrStatus fr_scene_grow_in_light(const FrDocument *document, const FrPlantDef *de
     if (definition->kind == FR_PLANT_LSYSTEM) {
         return grow_lsystem(definition, seed, context, plant);
     }
-    if (definition->kind == FR_PLANT_SKELETON) {
-        return grow_skeleton(definition, context, plant);
+    if (definition->kind == FR_PLANT_SKELETON || definition->kind == FR_PLANT_RAMIFIED) {
+        return grow_lines(definition, seed, context, plant);
     }
     if (definition->kind == FR_PLANT_SPECIES) {
         return grow_species(document, definition, seed, context, plant);

@@ -31,7 +31,7 @@ typedef struct FrNurbsModel {
 typedef struct FrNurbsJob {
     const FrNurbsParams *params;
     const FrContext *context;
-    int share;   ///< which organs are copies
+    int share; ///< which organs are copies
     FrPlan plan;
     FrScopes *scopes;    ///< of deformations; NULL
     FrPlant *moved;      ///< by the deformations of the skeleton; NULL

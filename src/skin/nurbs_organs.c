@@ -223,11 +223,13 @@ static void write_organ(const FrNurbsJob *job, uint32_t organ, int worker) {
     const FrNurbsPlace *place = &job->organs[organ];
     const FrNurbsShapeForms *shape = &job->shapes[plant->organs.shape[organ]];
     double axes[3][3], at[3];
-    pose_of(plant, organ, axes, at);
+    double scale = is_copy(job, organ) ? 1.0 : (double)plant->organs.scale[organ];
+    pose_of(plant, organ, scale, axes, at);
     if (is_copy(job, organ)) {
         FrNurbsCopy *copy = &job->skin->copies[place->piece];
+        const FrNurbsModel *model = &g_array_index(job->models, FrNurbsModel, place->model);
         *copy =
-            (FrNurbsCopy){.organ = organ, .piece_count = place->rows, .first_piece = shape->piece};
+            (FrNurbsCopy){.organ = organ, .piece_count = place->rows, .first_piece = model->piece};
         memcpy(copy->axes, axes, sizeof axes);
         memcpy(copy->at, at, sizeof at);
         return;
@@ -262,7 +264,8 @@ void fr_nurbs_write_organs(FrNurbsJob *job) {
     }
     for (uint32_t m = 0; m < job->models->len; m++) {
         const FrNurbsModel *model = &g_array_index(job->models, FrNurbsModel, m);
-        const double axes[3][3] = {{model->scale, 0, 0}, {0, model->scale, 0}, {0, 0, model->scale}};
+        const double axes[3][3] = {
+            {model->scale, 0, 0}, {0, model->scale, 0}, {0, 0, model->scale}};
         if (model->uses > 1) {
             FrNurbsPiece like = {.material = FR_NONE, .axis = FR_NONE, .organ = FR_NONE};
             write_forms(job, &job->shapes[model->shape], axes, origin,

@@ -4,6 +4,10 @@
 // both curves then leave the shared points in the same direction, and the branch starts inside its
 // parent. Where internodes are long that is far below the fork, so by default the first point is
 // taken nearer. A branch that stands aside of its bearer's tip shares the points moved there.
+//
+// A spline rounds off the corners of its control polygon, by a sixth of its second difference.
+// Where that is more than a part of the radius, what the branch bears at the corner would hang in
+// the air: there the polygon gets a point on either side.
 #include "skin/nurbs.h"
 
 #include <string.h>
@@ -13,6 +17,9 @@
 #define THINNEST_SHARE 0.02
 // Radii of the parent from the fork to where a branch begins.
 #define NEAREST 2.0
+
+// Part of the radius that the surface may stay away from a corner of its path.
+#define AWAY 0.4
 
 static FrNurbsStation *append(FrNurbsPath *path) {
     if (path->count == path->room) {
@@ -132,6 +139,75 @@ static void thicken(FrNurbsPath *path) {
     }
 }
 
+/// How far from a corner the points beside it must be, 0 for none.
+static double corner_room(const FrNurbsStation *before, const FrNurbsStation *corner,
+                          const FrNurbsStation *after) {
+    double in[3], out[3], second[3], turn[3];
+    for (int k = 0; k < 3; k++) {
+        in[k] = corner->at[k] - before->at[k];
+        out[k] = after->at[k] - corner->at[k];
+        second[k] = out[k] - in[k];
+    }
+    double wanted = AWAY * corner->radius * fmin(corner->flatness, 1.0);
+    double lengths[2] = {fr_unit3(in), fr_unit3(out)};
+    for (int k = 0; k < 3; k++) {
+        turn[k] = out[k] - in[k];
+    }
+    double turned = sqrt(fr_dot3(turn, turn));
+    // Lengths that differ are no bend.
+    double rounded =
+        fmin(sqrt(fr_dot3(second, second)), turned * fmax(lengths[0], lengths[1])) / 6.0;
+    return turned > 0.02 && rounded > wanted ? 6.0 * wanted / turned : 0.0;
+}
+
+static FrNurbsStation between(const FrNurbsStation *corner, const FrNurbsStation *other,
+                              double room, uint32_t node) {
+    double way[3];
+    for (int k = 0; k < 3; k++) {
+        way[k] = other->at[k] - corner->at[k];
+    }
+    double part = fmin(room / fmax(sqrt(fr_dot3(way, way)), 1e-12), 0.4);
+    FrNurbsStation station = *corner;
+    for (int k = 0; k < 3; k++) {
+        station.at[k] += part * way[k];
+    }
+    station.radius += part * (other->radius - corner->radius);
+    station.flatness += part * (other->flatness - corner->flatness);
+    station.node = node;
+    return station;
+}
+
+/// Gives corners their points, from the last to the first.
+static void keep_corners(FrNurbsPath *path) {
+    uint32_t first = MAX(path->shared, 1), count = path->count, more = 0;
+    for (uint32_t i = first; i + 1 < count; i++) {
+        const FrNurbsStation *s = &path->stations[i];
+        more += corner_room(s - 1, s, s + 1) > 0.0 ? 2 : 0;
+    }
+    if (more == 0) {
+        return;
+    }
+    for (uint32_t i = 0; i < more; i++) {
+        append(path);
+    }
+    uint32_t to = path->count;
+    FrNurbsStation after = path->stations[count - 1];
+    path->stations[--to] = after;
+    for (uint32_t i = count - 1; i-- > first;) {
+        FrNurbsStation corner = path->stations[i], before = path->stations[i - 1];
+        double room = corner_room(&before, &corner, &after);
+        if (room > 0.0) {
+            path->stations[--to] = between(&corner, &after, room, after.node);
+            path->stations[--to] = corner;
+            path->stations[--to] = between(&corner, &before, room, corner.node);
+        } else {
+            path->stations[--to] = corner;
+        }
+        after = corner;
+    }
+    FR_ASSERT(to == first);
+}
+
 void fr_nurbs_path(FrNurbsPath *path, const FrPlan *plan, const FrTube *tube,
                    const FrNurbsParams *params) {
     const FrPlant *plant = plan->plant;
@@ -163,6 +239,9 @@ void fr_nurbs_path(FrNurbsPath *path, const FrPlan *plan, const FrTube *tube,
         }
     }
     thicken(path);
+    if (params->corners) {
+        keep_corners(path);
+    }
 }
 
 uint32_t fr_nurbs_rows(const FrNurbsPath *path, const FrNurbsParams *params) {

@@ -119,12 +119,10 @@ static bool fork_into(const FrRamified *ramified, const FrTwig *twig, uint32_t w
 
 static FrTwig stem_of(const FrRamified *ramified, uint64_t seed) {
     const FrRamifiedParams *params = &ramified->params;
-    int64_t weight =
-        params->by == FR_RAMIFIED_STRANDS ? params->strands : MIN(params->order, FR_RAMIFIED_ORDERS);
-    return (FrTwig){.key = fr_key_root(seed),
-                    .weight = (uint32_t)weight,
-                    .bearer = FR_NONE,
-                    .axis = FR_NONE};
+    int64_t weight = params->by == FR_RAMIFIED_STRANDS ? params->strands
+                                                       : MIN(params->order, FR_RAMIFIED_ORDERS);
+    return (FrTwig){
+        .key = fr_key_root(seed), .weight = (uint32_t)weight, .bearer = FR_NONE, .axis = FR_NONE};
 }
 
 /// Appends the two branches of a fork; the one that goes on is taken first.
@@ -138,10 +136,18 @@ static void push_fork(const FrRamified *ramified, const FrTwig *twig, const uint
     double tilt = atan2(r * sin(angle), 1.0 + r * cos(angle));
     double chance = fr_random_signed(twig->key, PURPOSE_ROLL, 0);
     double roll = params->roll + chance * params->roll_variance;
-    FrTwig aside = {.key = fr_key_child(twig->key, 1), .weight = weights[1], .bearer = node,
-                    .axis = FR_NONE, .tilt = tilt - angle, .roll = roll};
-    FrTwig onward = {.key = fr_key_child(twig->key, 0), .weight = weights[0], .bearer = node,
-                     .axis = axis, .tilt = tilt, .roll = roll};
+    FrTwig aside = {.key = fr_key_child(twig->key, 1),
+                    .weight = weights[1],
+                    .bearer = node,
+                    .axis = FR_NONE,
+                    .tilt = tilt - angle,
+                    .roll = roll};
+    FrTwig onward = {.key = fr_key_child(twig->key, 0),
+                     .weight = weights[0],
+                     .bearer = node,
+                     .axis = axis,
+                     .tilt = tilt,
+                     .roll = roll};
     g_array_append_val(waiting, aside);
     g_array_append_val(waiting, onward);
 }
@@ -271,12 +277,11 @@ FrStatus fr_ramified_grow(const FrRamified *ramified, const char *name, uint64_t
     if (fr_progress_is_cancelled(context->progress)) {
         return FR_CANCELLED;
     }
-    FrStatus status =
-        fr_limit_check(nodes, most, "nodes", name, ramified->span, context->diags);
+    FrStatus status = fr_limit_check(nodes, most, "nodes", name, ramified->span, context->diags);
     if (status == FR_OK) {
-        status = fr_limit_check(fr_count_multiply(tips, (uint64_t)params->leaves),
-                                context->limits.organs, "organs", name, ramified->span,
-                                context->diags);
+        status =
+            fr_limit_check(fr_count_multiply(tips, (uint64_t)params->leaves),
+                           context->limits.organs, "organs", name, ramified->span, context->diags);
     }
     if (status != FR_OK) {
         return status;

@@ -44,11 +44,11 @@ def draw(folder, script):
     return done.stdout + done.stderr
 
 
-def same_faces(example, extension, read):
+def same_faces(example, extension, read, *settings):
     def test(folder):
         path = folder / f"plant{extension}"
-        stats = tap.statistics(example, "-o", path)
-        answer = draw(folder, read.format(path) + "puts [nbshapes g]\nputs [checkshape g short]\n")
+        stats = tap.statistics(example, "-o", path, *settings)
+        answer = draw(folder, read.format(path) + "puts [nbshapes g -t]\nputs [checkshape g short]\n")
         faces = int(re.search(r"FACE\s*:\s*(\d+)", answer)[1])
         assert faces == stats["surfaces"] > 0, (faces, stats)
         assert "looks OK" in answer or "seems to be valid" in answer, answer[-2000:]
@@ -107,7 +107,7 @@ def same_points(example, extension, read):
     """Both read the same numbers, so a wrong order of points, knots or weights shows."""
     def test(folder):
         path, own = folder / f"plant{extension}", folder / "plant.nurbs.obj"
-        tap.run("build", example, "-q", "-o", path, "-o", own)
+        tap.run("build", example, "-q", "-o", path, "-o", own, "--nurbs", "share=no")
         surfaces = read_free_form(own)
         chosen = [n for n in range(len(surfaces)) if n % max(len(surfaces) // 40, 1) == 0]
         script = read.format(path) + "explode g f\n"
@@ -140,6 +140,8 @@ TESTS = [("/interop/occt/the published string has seven segments and four branch
           published_string)]
 for example in [*SMALL, NURBS / "branching.l", NURBS / "star.frond"]:
     TESTS += [
+        (f"/interop/occt/{example.stem} has all its faces in STEP by AP203",
+         same_faces(example, ".stp", STEP, "--nurbs", "step=ap203")),
         (f"/interop/occt/{example.stem} has all its faces in IGES", same_faces(example, ".igs", IGES)),
         (f"/interop/occt/{example.stem} has all its faces in STEP", same_faces(example, ".stp", STEP)),
         (f"/interop/occt/{example.stem} is in IGES where it should be",

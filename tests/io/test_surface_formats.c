@@ -58,12 +58,67 @@ static void iges(void) {
     remove_folder(folder);
 }
 
+/// Writes a .stp; answers its text.
+static char *step_text(const FrScene *scene, const char *folder, int protocol, int share,
+                       FrIoStats *stats, size_t *size) {
+    FrContext context = fr_context_default();
+    FrIoOptions options = fr_io_options_default();
+    options.nurbs.step = protocol;
+    options.nurbs.share = share;
+    char *path = g_build_filename(folder, "oak.stp", NULL);
+    g_assert_cmpint(fr_io_write(scene, path, &options, &context, stats), ==, FR_OK);
+    g_free(path);
+    return file_bytes(folder, "oak.stp", size);
+}
+
+static void shared_step(void) {
+    char *folder = folder_new();
+    FrScene *scene = garden();
+    FrIoStats whole, shared;
+    size_t size, smaller;
+    char *text = step_text(scene, folder, FR_STEP_AP214, FR_SHARE_NO, &whole, &size);
+    g_assert_cmpuint(count_of(text, "=MAPPED_ITEM("), ==, 0);
+    g_free(text);
+    text = step_text(scene, folder, FR_STEP_AP214, FR_SHARE_EQUAL, &shared, &smaller);
+    g_assert_cmpuint(shared.surfaces, ==, whole.surfaces);
+    g_assert_cmpuint(smaller, <, size);
+    // Two of the five leaves are of one size, and each stand has a size of its own.
+    g_assert_cmpuint(count_of(text, "=MAPPED_ITEM("), ==, 2 * 2);
+    g_assert_cmpuint(count_of(text, "=REPRESENTATION_MAP("), ==, 2);
+    size_t faces = count_of(text, "=ADVANCED_FACE("), leaf = (whole.surfaces - faces) / 2;
+    g_assert_cmpuint(leaf, >=, 2);
+    g_assert_cmpuint(faces + 2 * leaf, ==, whole.surfaces);
+    g_free(text);
+    fr_scene_free(scene);
+    remove_folder(folder);
+}
+
+/// What ISO 10303-203 wants of every product besides.
+static void managed_step(void) {
+    char *folder = folder_new();
+    FrScene *scene = garden();
+    FrIoStats stats;
+    char *text = step_text(scene, folder, FR_STEP_AP203, FR_SHARE_EQUAL, &stats, NULL);
+    g_assert_nonnull(strstr(text, "FILE_SCHEMA(('CONFIG_CONTROL_DESIGN'));"));
+    static const char *const wanted[] = {"=PRODUCT_DEFINITION_FORMATION_WITH_SPECIFIED_SOURCE(",
+                                         "=CC_DESIGN_APPROVAL(",
+                                         "=CC_DESIGN_SECURITY_CLASSIFICATION("};
+    for (size_t i = 0; i < G_N_ELEMENTS(wanted); i++) {
+        g_assert_cmpuint(count_of(text, wanted[i]), ==, 2);
+    }
+    g_assert_cmpuint(count_of(text, "=CC_DESIGN_PERSON_AND_ORGANIZATION_ASSIGNMENT("), ==, 7);
+    g_assert_cmpuint(count_of(text, "=PRODUCT_CONTEXT("), ==, 0);
+    g_free(text);
+    fr_scene_free(scene);
+    remove_folder(folder);
+}
+
 static void step(void) {
     char *folder = folder_new();
     FrScene *scene = garden();
-    FrIoStats stats = write_scene(scene, folder, "oak.stp", FR_LEAVES_MERGED);
+    FrIoStats stats;
     size_t size;
-    char *text = file_bytes(folder, "oak.stp", &size);
+    char *text = step_text(scene, folder, FR_STEP_AP214, FR_SHARE_NO, &stats, &size);
     g_assert_cmpuint(size, ==, stats.bytes);
     g_assert_true(g_str_has_prefix(text, "ISO-10303-21;"));
     g_assert_true(g_str_has_suffix(text, "END-ISO-10303-21;\n"));
@@ -145,6 +200,8 @@ int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/io/surfaces/IGES has lines of 80 columns, all numbered", iges);
     g_test_add_func("/io/surfaces/STEP has a face for each surface, all numbered", step);
+    g_test_add_func("/io/surfaces/STEP writes equal leaves once", shared_step);
+    g_test_add_func("/io/surfaces/STEP by AP203 says who, when and how secret", managed_step);
     g_test_add_func("/io/surfaces/free-form OBJ has as many points as its knots say", free_form);
     g_test_add_func("/io/surfaces/too large a text is refused and leaves no file", too_many_bytes);
     return g_test_run();

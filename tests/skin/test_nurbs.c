@@ -95,6 +95,7 @@ static void joints(void) {
         fr_plant_add_node(plant, axis, about_x(60), 1, out[i]);
         fr_plant_add_node(plant, axis, GLMS_QUAT_IDENTITY, 1, out[i]);
         FrNurbsParams params = fr_nurbs_default();
+        params.corners = false;
         FrNurbsSkin *skin = skinned(plant, &params);
         g_assert_cmpuint(skin->pieces[0].surface.count_v, ==, 5);
         double share = (double)out[i] / (0.04 + (double)out[i]);
@@ -396,6 +397,79 @@ static void degenerate(void) {
     fr_plant_free(plant);
 }
 
+// Where a long stem bends, its surface stays at the fork, where a branch begins.
+static void corners(void) {
+    FrPlant *plant = fr_plant_new("bent");
+    uint32_t axis = fr_plant_add_axis(plant, FR_NONE, (vec3s){{0, 0, 0}}, 0.02F);
+    for (int i = 0; i < 5; i++) {
+        fr_plant_add_node(plant, axis, about_x(i == 2 ? 60 : 0), 1, 0.02F);
+    }
+    FrNurbsParams params = fr_nurbs_default();
+    double nearest[2];
+    for (int is_kept = 0; is_kept < 2; is_kept++) {
+        params.corners = is_kept;
+        FrNurbsSkin *skin = skinned(plant, &params);
+        FrNurbsCurve path = path_of(&skin->pieces[0].surface);
+        nearest[is_kept] = INFINITY;
+        for (int n = 0; n <= 2000; n++) {
+            double at[3];
+            fr_nurbs_curve_at(&path, n / 2000.0, at, NULL);
+            vec3s bend = plant->nodes.position[1];
+            double y = at[1] - (double)bend.y, z = at[2] - (double)bend.z;
+            nearest[is_kept] = fmin(nearest[is_kept], hypot(y, z));
+        }
+        fr_nurbs_curve_clear(&path);
+        fr_nurbs_skin_free(skin);
+    }
+    g_assert_cmpfloat(nearest[0], >, 0.1);
+    g_assert_cmpfloat(nearest[1], <, 0.5 * 0.02);
+    fr_plant_free(plant);
+}
+
+// Equal leaves are one shape and its places: where a copy is placed, the leaf is.
+static void copies(void) {
+    FrPlant *plant = bush();
+    for (uint32_t i = 0; i < plant->organs.count; i++) {
+        plant->organs.scale[i] = 0.5F + 0.001F * (float)(i % 100);
+    }
+    FrNurbsParams params = fr_nurbs_default();
+    FrContext context = fr_context_default();
+    FrNurbsSkin *whole = skinned(plant, &params), *shared;
+    const struct {
+        int share;
+        uint64_t least, most;
+        double within;
+    } cases[] = {{FR_SHARE_NO, 0, 0, 0},
+                 {FR_SHARE_EQUAL, 300, 100 * 3, 1e-7},
+                 {FR_SHARE_NEAR, 300, 12 * 3, 0.02 * 0.13}};
+    for (size_t c = 0; c < G_N_ELEMENTS(cases); c++) {
+        params.share = cases[c].share;
+        g_assert_cmpint(fr_nurbs_plant_shared(plant, &params, &context, &shared), ==, FR_OK);
+        g_assert_cmpuint(shared->copy_count, ==, cases[c].least);
+        g_assert_cmpuint(fr_nurbs_skin_surfaces(shared), ==, whole->count);
+        uint64_t kept = 0;
+        for (uint64_t i = 0; i < shared->copy_count; i++) {
+            const FrNurbsCopy *copy = &shared->copies[i];
+            kept = MAX(kept, copy->first_piece + copy->piece_count - shared->count);
+            const FrNurbsPiece *piece = &shared->pieces[copy->first_piece + 1];
+            const FrNurbsPiece *own = &whole->pieces[shared->count + 3 * i + 1];
+            g_assert_cmpuint(own->organ, ==, copy->organ);
+            double p[3], wanted[3];
+            fr_nurbs_surface_at(&piece->surface, 0.4, 0.3, p, NULL, NULL);
+            fr_nurbs_surface_at(&own->surface, 0.4, 0.3, wanted, NULL, NULL);
+            for (int k = 0; k < 3; k++) {
+                double at = copy->at[k] + p[0] * copy->axes[0][k] + p[1] * copy->axes[1][k] +
+                            p[2] * copy->axes[2][k];
+                g_assert_cmpfloat_with_epsilon(at, wanted[k], cases[c].within);
+            }
+        }
+        g_assert_cmpuint(kept, <=, cases[c].most);
+        fr_nurbs_skin_free(shared);
+    }
+    fr_nurbs_skin_free(whole);
+    fr_plant_free(plant);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/skin/nurbs/a straight stem is an exact cylinder", exact_tube);
@@ -409,6 +483,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/nurbs/a leaf is a petiole and two ruled halves", leaf);
     g_test_add_func("/skin/nurbs/a leaf curved across has cubic arcs", curved_leaf);
     g_test_add_func("/skin/nurbs/every primitive is exact", primitives);
+    g_test_add_func("/skin/nurbs/a surface stays at the corners of its path", corners);
+    g_test_add_func("/skin/nurbs/equal organs are copies of one shape", copies);
     g_test_add_func("/skin/nurbs/any number of threads makes the same surfaces", threads);
     g_test_add_func("/skin/nurbs/too many surfaces are refused before they are made", limits);
     g_test_add_func("/skin/nurbs/nothing makes no surface", degenerate);
