@@ -8,12 +8,9 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
     static const struct {
         FrElementId element;
         FrPlantKind kind;
-    } engines[] = {{FR_ELEMENT_PGRAPH, FR_PLANT_PGRAPH},
-                   {FR_ELEMENT_LSYSTEM, FR_PLANT_LSYSTEM},
-                   {FR_ELEMENT_SKELETON, FR_PLANT_SKELETON},
-                   {FR_ELEMENT_SPECIES, FR_PLANT_SPECIES},
-                   {FR_ELEMENT_RAMIFIED, FR_PLANT_RAMIFIED},
-                   {FR_ELEMENT_VARY, FR_PLANT_VARIED}};
+    } engines[] = {{FR_ELEMENT_PGRAPH, FR_PLANT_PGRAPH},     {FR_ELEMENT_LSYSTEM, FR_PLANT_LSYSTEM},
+                   {FR_ELEMENT_SKELETON, FR_PLANT_SKELETON}, {FR_ELEMENT_SPECIES, FR_PLANT_SPECIES},
+                   {FR_ELEMENT_RAMIFIED, FR_PLANT_RAMIFIED}, {FR_ELEMENT_VARY, FR_PLANT_VARIED}};
     uint32_t definition = FR_NONE;
     const char *first = NULL;
     for (size_t i = 0; i < G_N_ELEMENTS(engines); i++) {
@@ -33,10 +30,11 @@ static void read_definition(FrReader *reader, uint32_t node, FrPlantDef *plant) 
                       "only plants of a <pgraph> have <edits>");
     }
     if (definition == FR_NONE) {
-        fr_read_error(reader, "missing-element", reader->tree->nodes[node].name,
-                      "the plant '%s' has no <pgraph>, <lsystem>, <skeleton>, <ramified>, <species> "
-                      "or <vary>",
-                      plant->id);
+        fr_read_error(
+            reader, "missing-element", reader->tree->nodes[node].name,
+            "the plant '%s' has no <pgraph>, <lsystem>, <skeleton>, <ramified>, <species> "
+            "or <vary>",
+            plant->id);
     } else if (plant->kind == FR_PLANT_VARIED) {
         if (plant->sliders->len > 0) {
             fr_read_error(reader, "misplaced-element", reader->tree->nodes[definition].name,

@@ -91,8 +91,9 @@ static void measured(void) {
     FrRamifiedParams params = defaults(FR_RAMIFIED_MATRIX, 4);
     double counts[3] = {0};
     for (uint64_t seed = 0; seed < 3000; seed++) {
-        FrPlant *plant = grown(&params, "# (k,1) ... (k-1,k-1)\n0.3 0.7\n0.2, 0.3, 0.5\n"
-                                        "0.1 0.1 0.2 0.6 # of order 4\n",
+        FrPlant *plant = grown(&params,
+                               "# (k,1) ... (k-1,k-1)\n0.3 0.7\n0.2, 0.3, 0.5\n"
+                               "0.1 0.1 0.2 0.6 # of order 4\n",
                                seed);
         tally(plant, counts);
         fr_plant_free(plant);
@@ -141,8 +142,9 @@ static void deviations(void) {
 }
 
 static void wrong(void) {
-    static const char *const texts[] = {NULL, "", "0.5 0.5 0.5\n", "0.5 0.4\n", "1 0\n", "0.5 x\n",
-                                        "-1 2\n", "0.5 0.5\n", "nan 1\n", "0.5 0.5\n0.5 0.5\n"};
+    static const char *const texts[] = {
+        NULL,      "",       "0.5 0.5 0.5\n", "0.5 0.4\n", "1 0\n",
+        "0.5 x\n", "-1 2\n", "0.5 0.5\n",     "nan 1\n",   "0.5 0.5\n0.5 0.5\n"};
     for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
         FrRamifiedParams params = defaults(FR_RAMIFIED_MATRIX, 3);
         fr_ramified_free(made(&params, texts[i], FR_ERR_DOCUMENT));
