@@ -35,6 +35,18 @@ static void test_sun(void) {
     forget(&parsed);
 }
 
+/// The place in the example A.5 of Reda, Andreas 2004, Solar Position Algorithm: their elevation,
+/// 39.88838 degrees, has the refraction, 0.016 degrees, added.
+static void test_sun_published(void) {
+    Parsed parsed = parse(SCENE("<sun date='2003-10-17' time='12.5083333' zone='-7' "
+                                "latitude='39.742476' longitude='-105.1786'/>"));
+    g_assert_cmpint(parsed.status, ==, FR_OK);
+    const FrSceneParams *scene = fr_document_scene(parsed.document);
+    g_assert_cmpfloat_with_epsilon(scene->sun_azimuth / DEGREE, 194.34024, 0.01);
+    g_assert_cmpfloat_with_epsilon(scene->sun_elevation / DEGREE, 39.88838 - 0.016, 0.01);
+    forget(&parsed);
+}
+
 static void assert_wrong(const char *text, const char *code) {
     Parsed parsed = parse(text);
     g_assert_cmpint(parsed.status, ==, FR_ERR_DOCUMENT);
@@ -113,6 +125,8 @@ int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/document/surroundings/obstacles and lamps are read", test_read);
     g_test_add_func("/document/surroundings/the sun stands where the date puts it", test_sun);
+    g_test_add_func("/document/surroundings/the sun stands where it was published to",
+                    test_sun_published);
     g_test_add_func("/document/surroundings/lamps and obstacles have paths to be set by", test_set);
     g_test_add_func("/document/surroundings/who senses shadows is told of lamps", test_unseen);
     g_test_add_func("/document/surroundings/what is wrong has its code", test_wrong);

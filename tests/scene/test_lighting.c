@@ -64,6 +64,83 @@ static void test_materials(void) {
     }
 }
 
+#define RADIAN (G_PI / 180.0)
+
+// An area lamp far above, on its axis and 60 degrees beside it: P cos θ / (π d²).
+static void test_area(void) {
+    static const char *const kinds[2] = {"<light by='density' photons='400000' distance='0.2'/>\n",
+                                         "<light by='views' near='0.001'/>\n"};
+    for (int k = 0; k < 2; k++) {
+        char *text = g_strdup_printf(SCENE(DARK, "%s<lamp kind='area' at='0, 0, 4' width='0.2' "
+                                                 "height='0.4' turn='30' power='80'/>\n"),
+                                     kinds[k]);
+        for (int side = 0; side < 2; side++) {
+            double angle = side * 60 * RADIAN, d = 3;
+            vec3s at = {{(float)(d * sin(angle)), 0, (float)(4 - d * cos(angle))}};
+            FrLightAnswer answer = light_at(text, at);
+            double want = 80 * cos(angle) / (G_PI * d * d);
+            double tolerance = k == 0 ? 0.1 : 0.01;
+            g_assert_cmpfloat_with_epsilon((double)answer.intensity, want, tolerance * want);
+            g_assert_cmpfloat_with_epsilon((double)answer.direction.z, cos(angle), 0.05);
+        }
+        g_assert_cmpfloat(light_at(text, (vec3s){{0, 0, 5}}).intensity, ==, 0);
+        g_free(text);
+    }
+}
+
+// A disc above a point hides the sky up to the angle α from the zenith: of a uniform sky 1 − cos α
+// of the fluence, of an overcast one (1 − cos α + sin² α) / 2. Some 900 rays tell of the first.
+static void test_skies(void) {
+    static const struct {
+        const char *sky;
+        double hidden;
+    } rows[] = {{"uniform", 0.5}, {"overcast", 0.625}};
+    static const char *const kinds[2] = {"<light by='density' photons='1500000' distance='0.15' "
+                                         "relative='yes' reference='0, 0, 3'/>",
+                                         "<light by='views' views='4000' near='0.001'/>"};
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+            // 60 degrees: the disc's radius is √3 times its height.
+            char *text = g_strdup_printf(SCENE("sky='%s' sun-strength='0'",
+                                               "%s<obstacle shape='circle' tilt='-90' "
+                                               "at='0, -0.8660254, 0.5' "
+                                               "size='1.7320508, 1, 1.7320508'/>"),
+                                         rows[i].sky, kinds[k]);
+            FrLightAnswer answer = light_at(text, (vec3s){{0, 0, 0}});
+            g_test_message("%s, %d: %.4f", rows[i].sky, k, (double)answer.intensity);
+            g_assert_cmpfloat_with_epsilon((double)answer.intensity, 1 - rows[i].hidden,
+                                           k == 0 ? 0.06 : 0.005);
+            g_free(text);
+        }
+    }
+}
+
+// The middle of the sun's path over a day is in the south, 90° − latitude + declination high; a
+// clear sky is brightest on the side on which the sun goes its way.
+static void test_day(void) {
+    FrLightAnswer noon = light_at(SCENE("sky='clear' sky-strength='0'",
+                                        "<sun date='2025-06-21' time='9' latitude='52.5'/>"
+                                        "<light by='views' suns='1' near='0.001'/>"),
+                                  (vec3s){{0, 0, 2}});
+    double height = (90 - 52.5 + 23.436) * RADIAN;
+    g_assert_cmpfloat_with_epsilon((double)noon.direction.z, sin(height), 1e-3);
+    g_assert_cmpfloat_with_epsilon((double)noon.direction.y, -cos(height), 1e-3);
+    g_assert_cmpfloat_with_epsilon((double)noon.direction.x, 0, 1e-3);
+    FrLightAnswer sky = light_at(SCENE("sky='clear' sun-strength='0'",
+                                       "<sun date='2025-06-21' time='9' latitude='52.5'/>"
+                                       "<light by='views' views='500' towards='mean'/>"),
+                                 (vec3s){{0, 0, 2}});
+    g_assert_cmpfloat(sky.direction.y, <, -0.05f);
+    g_assert_cmpfloat(fabsf(sky.direction.x), <, 0.02f);
+    // South of the equator it is in the north.
+    noon = light_at(SCENE("sky='clear' sky-strength='0'",
+                          "<sun date='2025-06-21' time='9' latitude='-33.9'/>"
+                          "<light by='views' suns='1' near='0.001'/>"),
+                    (vec3s){{0, 0, 2}});
+    g_assert_cmpfloat_with_epsilon((double)noon.direction.y, cos((90 - 33.9 - 23.436) * RADIAN),
+                                   1e-3);
+}
+
 // A growing plant that needs light; what it derives from is checked, but it does not grow.
 #define GROWING                                                                                    \
     "<frond version='1'>\n<plant id='p'><lsystem><![CDATA[\n"                                      \
@@ -152,6 +229,10 @@ int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/scene/lighting/light goes through panes and comes back from mirrors",
                     test_materials);
+    g_test_add_func("/scene/lighting/an area lamp shines by Lambert's law", test_area);
+    g_test_add_func("/scene/lighting/a disc hides its part of an even and an overcast sky",
+                    test_skies);
+    g_test_add_func("/scene/lighting/the sun goes its way by date and latitude", test_day);
     g_test_add_func("/scene/lighting/too much light is refused at its place", test_limits);
     g_test_add_func("/scene/lighting/a check does not grow anything", test_check);
     g_test_add_func("/scene/lighting/an L-system is shown as it grows in the light", test_derive);

@@ -128,7 +128,8 @@ static void test_bushes(void) {
         leaf_area(plant_at(&built, i), sides);
         all[i] = sides[0] + sides[1];
         g_test_message("bush %u: %.3f to the lamps, %.3f away", i, sides[0], sides[1]);
-        g_assert_cmpfloat(sides[0], >, 1.2 * sides[1]);
+        g_assert_cmpfloat(sides[0], >, 2.5 * sides[1]);
+        g_assert_cmpfloat(sides[0], <, 3.3 * sides[1]);
     }
     g_assert_cmpfloat(all[2], >, 1.5 * all[0]);
     g_assert_cmpfloat(all[1], >, all[0]);
