@@ -51,6 +51,8 @@ typedef enum FrTextureKind {
     X(INTEGER, size, "512", 16, 4096, "", "", "pixels a side of a picture made by the program")    \
     X(INTEGER, seed, "1", 0, 4294967295.0, "", "", "seed of a picture made by the program")        \
     X(CHOICE, venation, "closed", 0, 0, "", "open closed", "veins end freely, or form loops")      \
+    X(CHOICE, vein_pattern, "pinnate", 0, 0, "", "pinnate palmate parallel",                       \
+      "main veins: one midrib, several from the base, or many side by side")                       \
     X(REAL, vein_density, "1", 0.1, 8, "", "", "density of veins relative to a typical leaf")      \
     X(POINTS, outline, "", 0, 0, "", "",                                                           \
       "half outline of the leaf in the picture: along 0-1, half width 0-0.5; empty: elliptic")     \

@@ -146,6 +146,31 @@ typedef struct FrFinish {
     float relief_stretch;                  ///< how much longer than wide
 } FrFinish;
 
+/// What the edge of a blade is like.
+typedef enum FrLeafMargin {
+    FR_MARGIN_ENTIRE,
+    FR_MARGIN_SERRATE, ///< teeth that point to the tip
+    FR_MARGIN_DENTATE, ///< teeth that point outwards
+    FR_MARGIN_CRENATE, ///< round teeth
+    FR_MARGIN_LOBED,   ///< cut into lobes
+} FrLeafMargin;
+
+/// Where the normals of a leaf point, for shading.
+typedef enum FrLeafNormals {
+    FR_NORMALS_SURFACE, ///< as the surface
+    FR_NORMALS_FLAT,    ///< all as the blade's upper side
+    FR_NORMALS_ROUND,   ///< apart, as those of a ball below the blade
+    FR_NORMALS_CROWN,   ///< away from the middle of all leaves; single shapes: as the surface
+} FrLeafNormals;
+
+/// How leaflets stand on a rachis.
+typedef enum FrCompound {
+    FR_COMPOUND_SIMPLE,
+    FR_COMPOUND_PINNATE,
+    FR_COMPOUND_BIPINNATE, ///< on pinnae, which stand on the rachis
+    FR_COMPOUND_PALMATE,   ///< at the end of the petiole
+} FrCompound;
+
 /// Leaf blade, petal or sepal in its own frame: base at the origin, midrib along z, upper face y.
 /// Angles in radians, lengths in metres at organ scale 1.
 typedef struct FrBlade {
@@ -165,6 +190,25 @@ typedef struct FrBlade {
                     ///< y(x) multiplies curvature_across, fold, the rate of twist, wave
                     ///< from base to tip; 0: the same all along
     uint16_t segments_along, segments_across; ///< ≥ 1; across: per half
+    float edge_curl;                          ///< further turn of the outer third, > 0 towards y
+    float tip_droop;                          ///< further turn of the last half, > 0 away from y
+    float undulation, undulations; ///< height of bumps over the width; how many along the blade
+    float phase;                   ///< which bumps
+    uint32_t margin;               ///< FrLeafMargin
+    uint32_t teeth;                ///< of each side
+    float tooth_depth;             ///< over the width
+    float tooth_sharpness;         ///< 0 round to 1 hollow, 0.5 straight
+    uint32_t normals;              ///< FrLeafNormals
+    // A compound leaf: length, width and all above but the petiole are those of a leaflet.
+    uint32_t compound;      ///< FrCompound
+    uint32_t leaflets;      ///< pairs on a rachis, or leaflets of a palm
+    uint32_t pinnae;        ///< pairs
+    uint32_t is_terminal;   ///< 1: another at the end
+    float rachis_length;    ///< from the lowest leaflet to the end
+    float rachis_curvature; ///< turn from its beginning to its end, > 0 towards y
+    float leaflet_angle;    ///< from the rachis; of a palm: of the outermost
+    float leaflet_petiole;  ///< length of its petiole
+    uint32_t leaflet_curve; ///< one more than the profile whose y(x) is their size; 0: the same
 } FrBlade;
 
 typedef enum FrShapeKind {

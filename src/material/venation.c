@@ -1,6 +1,8 @@
-// The veins of a pinnate leaf: midrib and secondaries first, then finer and finer stages of space
-// colonization (vein_growth.c). A stage that halves the distances on a finished blade does what
-// Runions et al. 2005 do by keeping the distances and doubling a uniformly growing blade.
+// The veins of a leaf: midrib and secondaries (pinnate), several main veins from the base
+// (palmate), or many that run side by side from base to tip (parallel) first, then finer and finer
+// stages of space colonization (vein_growth.c). A stage that halves the distances on a finished
+// blade does what Runions et al. 2005 do by keeping the distances and doubling a uniformly growing
+// blade.
 //
 // Radii: C. D. Murray, "The physiological principle of minimum work", 1926: the cube of a vein's
 // radius is the sum of the cubes of what it feeds.
@@ -11,7 +13,14 @@
 
 #include "material/vein_growth.h"
 
-enum { DRAW_SECONDARY = 1, DRAW_STAGE = 2, MOST_SECONDARIES = 60, MOST_STAGES = 24 };
+enum {
+    DRAW_SECONDARY = 1,
+    DRAW_STAGE = 2,
+    DRAW_BRIDGE = 77,
+    MOST_SECONDARIES = 60,
+    MOST_STAGES = 24
+};
+enum { PINNATE, PALMATE, PARALLEL };
 
 static const float trunk_step = 0.004f; ///< of midrib and secondaries
 
@@ -77,8 +86,8 @@ static void grow_secondary(Maker *maker, uint32_t base, float side, float angle,
 
 /// Pairs of secondaries at nearly equal distances, left and right a little apart, steeper towards
 /// the tip.
-static void grow_secondaries(Maker *maker, uint32_t midrib) {
-    const float lowest = 0.05f, highest = 0.93f;
+static void grow_secondaries(Maker *maker, uint32_t midrib, float lowest) {
+    const float highest = 0.93f;
     float wanted = roundf(8.0f * sqrtf(maker->density));
     int pairs = (int)CLAMP(wanted, 3.0f, (float)MOST_SECONDARIES);
     float spacing = (highest - lowest) / (float)pairs;
@@ -94,6 +103,69 @@ static void grow_secondaries(Maker *maker, uint32_t midrib) {
         float tilt = (float)fr_random_signed(maker->key, DRAW_SECONDARY, 3 * draw + 2);
         float angle = 1.0f - 0.3f * place + 0.05f * tilt;
         grow_secondary(maker, base, i % 2 == 0 ? -1.0f : 1.0f, angle, 0.8f * spacing);
+    }
+}
+
+// ---- other patterns -----------------------------------------------------------------------------
+
+/// Follows a main vein from the base to the margin, bending a little to the tip.
+static void grow_main(Maker *maker, uint32_t base, float side, float angle) {
+    const float clearance = 0.012f, free = 0.1f; // so far the base's own margin is near
+    float x = 0, y = vein(maker->venation, base)->y;
+    uint32_t last = base;
+    for (float way = 0; way < 1.2f; way += trunk_step) {
+        float heading = angle * (1.0f - 0.35f * fminf(2.0f * way, 1.0f));
+        x += trunk_step * sinf(heading);
+        y += trunk_step * cosf(heading);
+        float distance = fr_outline_at(maker->outline, x, y).distance;
+        if (y >= 1 || distance < (way > free ? clearance : 0.0f)) {
+            return;
+        }
+        last = add_vein(maker->venation, last, side * x, y);
+    }
+}
+
+/// Main veins fan out from the base; the midrib has secondaries above them.
+static void grow_palm(Maker *maker, uint32_t midrib) {
+    const float fan[] = {0.55f, 1.05f, 1.5f};
+    uint32_t base = MIN(4, midrib - 1);
+    for (size_t k = 0; k < G_N_ELEMENTS(fan); k++) {
+        float tilt = 0.06f * (float)fr_random_signed(maker->key, DRAW_SECONDARY, (uint32_t)k);
+        grow_main(maker, base, 1.0f, fan[k] + tilt);
+        grow_main(maker, base, -1.0f, fan[k] - tilt);
+    }
+    grow_secondaries(maker, midrib, 0.35f);
+}
+
+/// Veins side by side from base to tip, as far apart as the blade is wide, and short bridges
+/// between neighbours.
+static void grow_parallel(Maker *maker, uint32_t midrib) {
+    enum { MOST_LINES = 40 };
+    FrVenation *venation = maker->venation;
+    int lines = (int)CLAMP(roundf(6.0f * sqrtf(maker->density)), 2.0f, (float)MOST_LINES);
+    vein(venation, midrib - 1)->radius = 1.5f * (float)lines; // the midrib is the strongest
+    for (int side = -1; side <= 1; side += 2) {
+        uint32_t before_first = 0, before_count = midrib;
+        for (int k = 1; k <= lines; k++) {
+            float out = (float)side * (float)k / ((float)lines + 0.7f);
+            uint32_t first = venation->veins->len, last = 0;
+            for (uint32_t i = 1; i < midrib; i++) {
+                float y = (float)i * trunk_step;
+                last = add_vein(venation, last, out * fr_outline_half_width(maker->outline, y), y);
+            }
+            uint32_t count = venation->veins->len - first;
+            for (uint32_t i = 4; i < MIN(count, before_count); i++) {
+                FrKey key =
+                    fr_key_child(maker->key, DRAW_BRIDGE + (uint64_t)(k * side + MOST_LINES));
+                if (fr_random(key, DRAW_BRIDGE, i) < 0.008) {
+                    // A step higher on the outer one.
+                    FrVeinJoin bridge = {before_first + i - 2, first + i - 1};
+                    g_array_append_val(venation->joins, bridge);
+                }
+            }
+            before_first = first;
+            before_count = count;
+        }
     }
 }
 
@@ -203,9 +275,18 @@ FrVenation *fr_venation_new(const FrMaterialParams *params, const FrOutline *out
         .density = (float)CLAMP(params->vein_density, 0.1, 8),
         .is_closed = params->venation == 1,
     };
-    grow_secondaries(&maker, grow_midrib(&maker));
+    uint32_t midrib = grow_midrib(&maker);
+    if (params->vein_pattern == PALMATE) {
+        grow_palm(&maker, midrib);
+    } else if (params->vein_pattern == PARALLEL) {
+        grow_parallel(&maker, midrib);
+    } else {
+        grow_secondaries(&maker, midrib, 0.05f);
+    }
     uint32_t trunk = venation->veins->len;
-    grow_stages(&maker, finest);
+    if (params->vein_pattern != PARALLEL) {
+        grow_stages(&maker, finest);
+    }
     smooth_veins(venation, trunk);
     set_radii(venation);
     return venation;

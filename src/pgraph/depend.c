@@ -17,7 +17,7 @@ static Effect effect_of(FrComponentKind kind, size_t row) {
     if (row == FR_BASIC_material) {
         return ON_LOOK;
     }
-    bool is_form = row >= FR_LEAF_length && row <= FR_LEAF_variants;
+    bool is_form = (row >= FR_LEAF_length && row <= FR_LEAF_variants) || row >= FR_LEAF_edge_curl;
     return kind == FR_COMPONENT_LEAF && is_form ? ON_FORM : ON_GROWTH;
 }
 

@@ -123,6 +123,7 @@ static void map_blade(const FrScion *scion, FrBlade *blade) {
     blade->fold_along = mapped_along(scion, blade->fold_along);
     blade->twist_along = mapped_along(scion, blade->twist_along);
     blade->wave_along = mapped_along(scion, blade->wave_along);
+    blade->leaflet_curve = mapped_along(scion, blade->leaflet_curve);
 }
 
 static void map_shapes(FrScion *scion, FrPlant *host) {

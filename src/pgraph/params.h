@@ -183,7 +183,32 @@
     X(NUMBER, sink, "0", -100, 1, "", "",                                                          \
       "how deep in the stem what stands on the surface begins, in its radii; negative: off it")
 
-/// From phototropism on, evaluated for each leaf; the rest for each shape.
+/// Edge, bumps, shading and leaflets. The last rows, so that they changed no draw of any before.
+#define FR_LEAF_DETAIL_PARAMS(X)                                                                   \
+    X(NUMBER, edge_curl, "0", -720, 720, "deg", "",                                                \
+      "turn of the outer third of each half, upwards")                                             \
+    X(NUMBER, tip_droop, "0", -720, 720, "deg", "", "turn of the half towards the tip, downwards") \
+    X(NUMBER, undulation, "0", 0, 1, "", "", "height of its bumps, of the width")                  \
+    X(REAL, undulations, "3", 0.1, 20, "", "", "bumps along the blade")                            \
+    X(CHOICE, margin, "entire", 0, 0, "", "entire serrate dentate crenate lobed", "its edge")      \
+    X(INTEGER, teeth, "16", 0, 200, "", "", "teeth of each side; lobes: at most 20")               \
+    X(REAL, tooth_depth, "0.06", 0, 1, "", "", "height of teeth, depth of lobes; of the width")    \
+    X(REAL, tooth_sharpness, "0.5", 0, 1, "", "", "0 round, 0.5 straight, 1 hollow and pointed")   \
+    X(CHOICE, normals, "surface", 0, 0, "", "surface flat round crown",                            \
+      "which way it is shaded: as it is, flat, as a ball, away from the middle of the crown")      \
+    X(CHOICE, compound, "simple", 0, 0, "", "simple pinnate bipinnate palmate",                    \
+      "how leaflets stand; then length, width and outline are those of a leaflet")                 \
+    X(NUMBER, leaflets, "5", 1, 60, "", "", "pairs of leaflets; leaflets of a palm")               \
+    X(INTEGER, pinnae, "6", 1, 40, "", "", "pairs of pinnae of a bipinnate leaf")                  \
+    X(SWITCH, terminal, "yes", 0, 1, "", "", "a leaflet, or pinna, at the end")                    \
+    X(NUMBER, rachis_length, "0.2", 0, 100, "m", "", "from the end of the petiole to the last")    \
+    X(NUMBER, rachis_curvature, "0", -720, 720, "deg", "", "turn of the rachis, upwards")          \
+    X(NUMBER, leaflet_angle, "60", 0, 180, "deg", "",                                              \
+      "from the rachis; of the outermost of a palm")                                               \
+    X(REAL, leaflet_petiole, "0.002", 0, 10, "m", "", "length of the petiole of a leaflet")        \
+    X(CURVE, leaflet_curve, "", 0, 0, "", "", "size of leaflets along the rachis")
+
+/// Phototropism and gravitropism are evaluated for each leaf; the rest for each shape.
 #define FR_LEAF_PARAMS(X)                                                                          \
     X(NUMBER, length, "0.1", 0.00001, 100, "m", "", "length of the blade")                         \
     X(NUMBER, width, "0.05", 0.00001, 100, "m", "", "greatest width of the blade")                 \
@@ -217,7 +242,8 @@
     X(REAL, super_n3, "2", 0.1, 50, "", "", "superformula: n3, form of the gaps")                  \
     X(INTEGER, variants, "8", 1, 256, "", "", "shapes its random numbers choose from")             \
     X(NUMBER, phototropism, "0", 0, 1, "", "", "turns its upper face to the light: 1 fully")       \
-    X(NUMBER, gravitropism, "0", -1, 1, "", "", "hangs down: 1 fully; negative: stands up")
+    X(NUMBER, gravitropism, "0", -1, 1, "", "", "hangs down: 1 fully; negative: stands up")        \
+    FR_LEAF_DETAIL_PARAMS(X)
 
 #define FR_SIMPLE_PARAMS(X)                                                                        \
     X(CHOICE, primitive, "box", 0, 0, "",                                                          \

@@ -20,20 +20,6 @@ static bool is_always(const FrNumber *number, double value) {
     return number->is_constant && number->constant == value;
 }
 
-// Whether a parameter depends on anything but the path's random numbers and the place along itself.
-static bool depends_on_place(const FrNumber *number) {
-    if (number->is_constant) {
-        return false;
-    }
-    for (int var = 0; var < FR_VAR_COUNT; var++) {
-        // The plain range is walked before the function, but only t tells where.
-        if (var != FR_VAR_s && fr_number_uses(number, (FrVar)var)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static void note_variation(FrPrepared *made, const FrParamTable *table, bool has_ramps) {
     for (size_t row = 0; row < table->count; row++) {
         if (table->rows[row].kind == FR_PARAM_NUMBER && (has_ramps || row != FR_BASIC_ramp_at)) {
@@ -106,18 +92,6 @@ static uint32_t add_section(FrPlant *plant, const FrPoints *section, bool is_clo
                                     (uint32_t)section->count, is_closed);
     }
     return is_closed ? FR_NONE : fr_plant_add_profile(plant, flat, 2, false);
-}
-
-static uint32_t add_curve(FrPlant *plant, const FrCurve *curve) {
-    if (curve == NULL) {
-        return FR_NONE;
-    }
-    double points[CURVE_POINTS][2];
-    for (int k = 0; k < CURVE_POINTS; k++) {
-        points[k][0] = (double)k / (CURVE_POINTS - 1);
-        points[k][1] = fr_curve_eval(curve, points[k][0]);
-    }
-    return fr_plant_add_profile(plant, (const double(*)[2])points, CURVE_POINTS, false);
 }
 
 static FrDensity *cumulate_density(const FrCurve *curve) {
@@ -253,7 +227,7 @@ static FrFinishParams finish_of(const FrPrototype *prototype) {
 #undef FR_TAKE
 }
 
-// What is plain has no finish; else there are two, so that odd ones are those of what is broken.
+// What is plain has no finish; else there are two, the odd one that of what is broken.
 static uint32_t add_finishes(FrPlant *plant, int tip, const FrFinishParams *params) {
     FrFinish finish = {
         .cap = tip > FR_TIP_FLAT ? (uint32_t)(tip - FR_TIP_FLAT) : FR_CAP_FLAT,
@@ -275,6 +249,9 @@ static uint32_t add_finishes(FrPlant *plant, int tip, const FrFinishParams *para
                     !(finish.relief > 0);
     if (is_plain) {
         return FR_NONE;
+    }
+    if (plant->finishes->len % 2 != 0) {
+        fr_plant_add_finish(plant, &finish); // behind those of a graft
     }
     uint32_t first = fr_plant_add_finish(plant, &finish);
     finish.cap = params->break_tip != 0 ? FR_CAP_BROKEN : FR_CAP_FLAT;
@@ -346,77 +323,6 @@ static FrStatus prepare_simple(FrPrepared *made, const FrPgraph *graph,
     return FR_OK;
 }
 
-static void prepare_leaf(FrPrepared *made, const FrPgraph *graph, const FrPrototype *prototype,
-                         FrPlant *plant, GHashTable *faults) {
-    const FrLeafParams *leaf = prototype->params;
-    made->blade = (FrShape){.kind = FR_SHAPE_BLADE};
-    FrBlade *blade = &made->blade.blade;
-    blade->outline = fr_leaf_outline(plant, leaf);
-    blade->along_curve = add_curve(plant, leaf->along_curve);
-    blade->across_curve = add_curve(plant, leaf->across_curve);
-    blade->segments_along = (uint16_t)leaf->segments_along;
-    blade->segments_across = (uint16_t)leaf->segments_across;
-    const FrNumber *numbers[] = {
-        &leaf->length,
-        &leaf->width,
-        &leaf->petiole_length,
-        &leaf->petiole_radius,
-        &leaf->petiole_bend,
-        &leaf->curvature_along,
-        &leaf->curvature_across,
-        &leaf->fold,
-        &leaf->twist,
-        &leaf->wave,
-        &leaf->waves,
-    };
-    bool varies = false, depends = false;
-    for (size_t k = 0; k < G_N_ELEMENTS(numbers); k++) {
-        varies |= !numbers[k]->is_constant;
-        depends |= depends_on_place(numbers[k]);
-    }
-    made->shape_choice = depends ? FR_SHAPE_EVALUATED : varies ? FR_SHAPE_VARIANT : FR_SHAPE_SAME;
-    made->variant_count = (uint32_t)leaf->variants;
-    made->is_along = fr_leaf_is_along(leaf);
-    if (depends) {
-        return;
-    }
-    uint32_t count = varies ? made->variant_count : 1;
-    made->variants = g_new(uint32_t, count);
-    FrEvaluator evaluator = {.faults = faults};
-    evaluator.component = fr_pgraph_find(graph, prototype->id);
-    for (uint32_t k = 0; k < count; k++) {
-        evaluator.vars.key = fr_variant_key(graph, made, k);
-        FrShape shape = fr_leaf_shape(made, &evaluator);
-        fr_leaf_along(&shape.blade, leaf, &evaluator, plant);
-        made->variants[k] = fr_plant_add_shape(plant, &shape);
-    }
-    made->shape = made->variants[0];
-}
-
-FrKey fr_variant_key(const FrPgraph *graph, const FrPrepared *prepared, uint32_t variant) {
-    return fr_key_child(fr_key_child(fr_key_root(graph->seed), prepared->key_word), variant);
-}
-
-FrShape fr_leaf_shape(const FrPrepared *prepared, FrEvaluator *evaluator) {
-    const FrLeafParams *leaf = prepared->params;
-    FrShape shape = prepared->blade;
-    FrBlade *blade = &shape.blade;
-#define FR_SET(field) blade->field = (float)fr_value(evaluator, &leaf->field, FR_LEAF_##field)
-    FR_SET(length);
-    FR_SET(width);
-    FR_SET(petiole_length);
-    FR_SET(petiole_radius);
-    FR_SET(petiole_bend);
-    FR_SET(curvature_along);
-    FR_SET(curvature_across);
-    FR_SET(fold);
-    FR_SET(twist);
-    FR_SET(wave);
-    FR_SET(waves);
-#undef FR_SET
-    return shape;
-}
-
 static void prepare_graft(FrPrepared *made, const FrPgraph *graph, uint32_t component) {
     made->defines = fr_pgraph_prototype(graph, component)->defines;
     for (guint k = 0; k < made->defines->len; k++) {
@@ -478,7 +384,7 @@ static FrStatus prepare_one(FrPrepared *made, const FrPgraph *graph, uint32_t co
         FR_ASSERT(made->weights != NULL);
         break;
     case FR_COMPONENT_LEAF:
-        prepare_leaf(made, graph, prototype, plant, faults);
+        fr_prepare_leaf(made, graph, prototype, plant, faults);
         break;
     case FR_COMPONENT_SCATTER:
         return fr_prepare_scatter(made, graph, prototype, context);

@@ -77,6 +77,9 @@ FrStatus fr_prepare(FrPrepared **prepared, const FrPgraph *graph, const FrRecurs
                     FrPlant *plant, GHashTable *faults, const FrContext *context);
 void fr_prepared_free(FrPrepared *prepared, uint32_t count);
 
+/// A leaf's part of fr_prepare().
+void fr_prepare_leaf(FrPrepared *made, const FrPgraph *graph, const FrPrototype *prototype,
+                     FrPlant *plant, GHashTable *faults);
 /// A leaf's shape for the instance or variant whose variables are set.
 FrShape fr_leaf_shape(const FrPrepared *prepared, FrEvaluator *evaluator);
 /// Whether any of its parameters differs along the leaf itself.

@@ -5,7 +5,7 @@
 #include <string.h>
 
 // Shapes are hashed and compared as bytes: every byte of them must be one that was set.
-_Static_assert(sizeof(FrShape) == 6 * 4 + 18 * 4 + 2 * 2, "FrShape has padding");
+_Static_assert(sizeof(FrShape) == 6 * 4 + 37 * 4 + 2 * 2, "FrShape has padding");
 
 static guint shape_hash(gconstpointer shape) {
     return (guint)fr_digest(0, shape, sizeof(FrShape));

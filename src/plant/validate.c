@@ -158,7 +158,8 @@ static void check_tables(const FrPlant *plant, FrFinding *finding) {
              blade->across_along > plant->profiles->len ||
              blade->fold_along > plant->profiles->len ||
              blade->twist_along > plant->profiles->len ||
-             blade->wave_along > plant->profiles->len)) {
+             blade->wave_along > plant->profiles->len ||
+             blade->leaflet_curve > plant->profiles->len)) {
             found(finding, "shape %u has an outline or curve out of range", i);
         } else if (shape->kind == FR_SHAPE_REVOLUTION && shape->outline >= plant->profiles->len) {
             found(finding, "shape %u has outline %u of %u", i, shape->outline,

@@ -18,7 +18,9 @@ static void add_ball(Box *box, vec3s centre, float radius) {
 /// How far a shape of scale 1 reaches from its base.
 static float reach_of(const FrShape *shape) {
     if (shape->kind == FR_SHAPE_BLADE) {
-        return shape->blade.petiole_length + hypotf(shape->blade.length, 0.5F * shape->blade.width);
+        return shape->blade.petiole_length + shape->blade.rachis_length * 2 +
+               shape->blade.leaflet_petiole +
+               hypotf(shape->blade.length, 0.5F * shape->blade.width);
     }
     vec3s half = {{0.5F * shape->size.x, 0.5F * shape->size.y, shape->size.z}};
     return glms_vec3_norm(half);

@@ -8,6 +8,8 @@
 // A curve over either curvature spreads the whole turn by its values: κ = turn · y(x) / ∫ |y|.
 #include "skin/blade.h"
 
+#include "frond/noise.h"
+#include "skin/margin.h"
 #include "skin/outline.h"
 #include "skin/shape.h"
 
@@ -15,7 +17,7 @@
 
 #include <math.h>
 
-enum { FINE = FR_BLADE_FINE, ROWS_MOST = 128, ACROSS_MOST = 32 };
+enum { FINE = FR_BLADE_FINE, ROWS_MOST = 168, ACROSS_MOST = 32, KEY_BUMPS = 0x62756d70 };
 /// From this level of detail on petioles are too thin to see.
 enum { PETIOLE_GONE = 2 };
 
@@ -37,7 +39,9 @@ static double finite_or_zero(double value) {
     return isfinite(value) ? value : 0.0;
 }
 
-static void bend(FrBent *bent, const FrPlant *plant, double start, double turn, uint32_t curve) {
+// `late` is turned from `from` on, ever more.
+static void bend(FrBent *bent, const FrPlant *plant, double start, double turn, uint32_t curve,
+                 double late, double from) {
     const FrProfile *profile =
         curve < plant->profiles->len ? &g_array_index(plant->profiles, FrProfile, curve) : NULL;
     double step[FINE], all = 0.0;
@@ -51,6 +55,8 @@ static void bend(FrBent *bent, const FrPlant *plant, double start, double turn, 
     bent->x[0] = bent->y[0] = 0.0;
     for (int i = 0; i < FINE; i++) {
         double turned = all > 0.0 ? turn * step[i] / all : 0.0;
+        double x = ((i + 0.5) / FINE - from) / (1.0 - from);
+        turned += late != 0.0 && x > 0.0 ? late * 2.0 * x / (FINE * (1.0 - from)) : 0.0;
         double middle = bent->angle[i] + 0.5 * turned;
         bent->angle[i + 1] = bent->angle[i] + turned;
         // The chord of an arc is sin(a)/a of its length.
@@ -105,6 +111,18 @@ static double twist_at(const FrBladeForm *form, double along) {
     return form->twist[low] + (along * FINE - low) * (form->twist[low + 1] - form->twist[low]);
 }
 
+// Bumps of the surface, none where it begins.
+static double bump_at(const FrBladeForm *form, double along, double aside) {
+    const FrBlade *blade = form->blade;
+    if (!(blade->undulation > 0.0F)) {
+        return 0.0;
+    }
+    double each = (double)blade->length / (double)blade->undulations;
+    double x = aside / each, y = along * (double)blade->undulations;
+    double noise = fr_noise2(fr_key_root(KEY_BUMPS), x + (double)blade->phase, y);
+    return (double)blade->undulation * form->width * noise * fmin(6.0 * along, 1.0);
+}
+
 void fr_blade_point(const FrBladeForm *form, double along, double aside, double point[3]) {
     const FrBlade *blade = form->blade;
     double forth, lift, theta, out, up;
@@ -114,6 +132,7 @@ void fr_blade_point(const FrBladeForm *form, double along, double aside, double 
     double part = aside / form->half, phase = aside < 0.0 ? 0.35 : 0.0;
     double wave = blade->wave * factor_at(form->wave_along, along);
     y += wave * form->width * part * part * sin(2.0 * G_PI * (blade->waves * along + phase));
+    y += bump_at(form, along, aside);
     double twist = twist_at(form, along), cosine = cos(twist), sine = sin(twist);
     double turned_x = cosine * x - sine * y, turned_y = sine * x + cosine * y;
     point[0] = form->base.x + turned_x;
@@ -121,7 +140,7 @@ void fr_blade_point(const FrBladeForm *form, double along, double aside, double 
     point[2] = form->base.z + blade->length * forth - turned_y * sin(theta);
 }
 
-static vec3s surface_normal(const FrBladeForm *form, double along, double aside) {
+vec3s fr_blade_normal(const FrBladeForm *form, double along, double aside) {
     const double step = 1e-3;
     double base[3], tip[3], left[3], right[3], a[3], b[3];
     fr_blade_point(form, fmax(along - step, 0.0), aside, base);
@@ -144,7 +163,7 @@ static uint32_t put_vertex(FrShapeMesh *mesh, const FrBladeForm *form, double al
     double u = fmin(fmax(0.5 + aside / form->width, 0.0), 1.0), point[3];
     fr_blade_point(form, along, aside, point);
     vec3s position = {{(float)point[0], (float)point[1], (float)point[2]}};
-    return fr_shape_vertex(mesh, position, surface_normal(form, along, aside), (float)u,
+    return fr_shape_vertex(mesh, position, fr_blade_normal(form, along, aside), (float)u,
                            (float)(1.0 - along));
 }
 
@@ -179,8 +198,12 @@ static void join_rows(FrShapeMesh *mesh, uint32_t low, uint32_t low_count, uint3
 void fr_blade_segments(const FrBlade *blade, const FrDetail *detail, uint32_t *along,
                        uint32_t *across) {
     uint32_t waves = blade->wave != 0.0F ? (uint32_t)fminf(4.0F * fabsf(blade->waves), 64.0F) : 0;
-    *along = fr_shape_segments(MAX(blade->segments_along, waves), 1, ROWS_MOST, detail);
-    *across = fr_shape_segments(blade->segments_across, 1, ACROSS_MOST, detail);
+    uint32_t bumps = blade->undulation > 0.0F ? (uint32_t)(3.0F * blade->undulations) : 0;
+    uint32_t lobes = blade->margin == FR_MARGIN_LOBED ? 8 * MIN(blade->teeth, FR_LOBES_MOST) : 0;
+    uint32_t wanted = MAX(MAX(blade->segments_along, waves), MAX(bumps, lobes));
+    *along = fr_shape_segments(wanted, 1, ROWS_MOST, detail);
+    uint32_t fine = blade->undulation > 0.0F ? 3 : blade->edge_curl != 0.0F ? 4 : 0;
+    *across = fr_shape_segments(MAX(blade->segments_across, fine), 1, ACROSS_MOST, detail);
 }
 
 static void lay_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBladeForm *form,
@@ -192,13 +215,14 @@ static void lay_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBladeForm
     if (!(outline.area > 1e-6)) {
         return;
     }
+    fr_outline_lobe(&outline, blade);
     if (detail->lod < PETIOLE_GONE) {
         fr_outline_thicken(&outline, blade);
     }
     uint32_t along, across;
     fr_blade_segments(blade, detail, &along, &across);
     bool is_level = blade->curvature_across == 0.0F && blade->fold == 0.0F && blade->wave == 0.0F &&
-                    blade->twist == 0.0F;
+                    blade->twist == 0.0F && blade->edge_curl == 0.0F && blade->undulation == 0.0F;
     // Two columns do where nothing bends across, and from far away.
     uint32_t columns = across == 1 && (is_level || detail->lod > 3) ? 2 : 2 * across + 1;
     fr_outline_rows(&outline, along, rows);
@@ -211,6 +235,7 @@ static void lay_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBladeForm
         low = first;
         low_count = count;
     }
+    fr_margin_teeth(mesh, form, rows, along + 1, detail);
 }
 
 // A tube of three sides, one flat strip from far away. It takes its colour from the midrib in the
@@ -265,7 +290,7 @@ bool fr_blade_form_init(FrBladeForm *form, const FrPlant *plant, const FrBlade *
     double start = 0.0;
     if (blade->petiole_length > 0.0F) {
         double forth, lift;
-        bend(&form->petiole, plant, 0.0, blade->petiole_bend, FR_NONE);
+        bend(&form->petiole, plant, 0.0, blade->petiole_bend, FR_NONE, 0.0, 0.0);
         bent_at(&form->petiole, 1.0, &forth, &lift, &start);
         form->base.y = blade->petiole_length * (float)lift;
         form->base.z = blade->petiole_length * (float)forth;
@@ -273,8 +298,10 @@ bool fr_blade_form_init(FrBladeForm *form, const FrPlant *plant, const FrBlade *
     if (!(blade->length > 0.0F && blade->width > 0.0F)) {
         return false;
     }
-    bend(&form->along, plant, start, blade->curvature_along, blade->along_curve);
-    bend(&form->across, plant, blade->fold, blade->curvature_across, blade->across_curve);
+    bend(&form->along, plant, start, blade->curvature_along, blade->along_curve, -blade->tip_droop,
+         0.5);
+    bend(&form->across, plant, blade->fold, blade->curvature_across, blade->across_curve,
+         blade->edge_curl, 0.67);
     vary_along(form, plant);
     return true;
 }
@@ -287,9 +314,8 @@ void fr_blade_petiole(const FrBladeForm *form, double along, double point[3]) {
     point[2] = length * forth;
 }
 
-void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
-                    const FrDetail *detail) {
-    mesh->is_foliage = true;
+void fr_lay_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
+                  const FrDetail *detail) {
     FrBladeForm form;
     bool has_blade = fr_blade_form_init(&form, plant, blade);
     if (blade->petiole_length > 0.0F && blade->petiole_radius > 0.0F &&
@@ -299,4 +325,15 @@ void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blad
     if (has_blade) {
         lay_blade(mesh, plant, &form, detail);
     }
+}
+
+void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
+                    const FrDetail *detail) {
+    mesh->is_foliage = true;
+    if (blade->compound == FR_COMPOUND_SIMPLE) {
+        fr_lay_blade(mesh, plant, blade, detail);
+    } else {
+        fr_lay_compound(mesh, plant, blade, detail);
+    }
+    fr_turn_normals(mesh, blade);
 }

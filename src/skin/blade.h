@@ -5,6 +5,8 @@
 
 enum { FR_BLADE_FINE = 64 };
 
+enum { FR_LOBES_MOST = 20 };
+
 /// A plane curve with the turn and the position at even steps.
 typedef struct FrBent {
     double angle[FR_BLADE_FINE + 1], x[FR_BLADE_FINE + 1], y[FR_BLADE_FINE + 1]; ///< x straight on
@@ -27,3 +29,5 @@ bool fr_blade_form_init(FrBladeForm *form, const FrPlant *plant, const FrBlade *
 void fr_blade_point(const FrBladeForm *form, double along, double aside, double point[3]);
 /// The point of the petiole at `along`.
 void fr_blade_petiole(const FrBladeForm *form, double along, double point[3]);
+/// The surface's unit normal there.
+vec3s fr_blade_normal(const FrBladeForm *form, double along, double aside);

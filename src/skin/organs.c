@@ -238,6 +238,30 @@ static void share_pieces(FrOrganPlan *organs, const FrOrganPlan *other) {
     memcpy(organs->slot_foliage, other->slot_foliage, slots * sizeof *organs->slot_foliage);
 }
 
+// The middle of what is shaded as a crown, summed in the order of organs.
+static void find_crown(FrOrganPlan *organs) {
+    double sum[3] = {0}, count = 0;
+    bool has_crown = false;
+    for (uint32_t i = 0; i < organs->shape_count; i++) {
+        has_crown |= organs->shapes[i].is_crown;
+    }
+    for (uint32_t i = 0; has_crown && i < organs->plan->plant->organs.count; i++) {
+        const FrShapeMesh *shape = shape_of(organs, i);
+        if (shape != NULL && shape->is_crown) {
+            vec3s at;
+            versors rotation;
+            fr_plant_organ_pose(organs->plan->plant, i, &at, &rotation);
+            for (int k = 0; k < 3; k++) {
+                sum[k] += (double)at.raw[k];
+            }
+            count++;
+        }
+    }
+    for (int k = 0; k < 3 && count > 0; k++) {
+        organs->crown.raw[k] = (float)(sum[k] / count);
+    }
+}
+
 FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan, const FrOrganPlan *same) {
     const FrPlant *plant = plan->plant;
     uint32_t count = plan->detail.foliage ? plant->organs.count : 0;
@@ -259,6 +283,7 @@ FrStatus fr_organs_init(FrOrganPlan *organs, const FrPlan *plan, const FrOrganPl
     FrStatus status = prepare_shapes(organs);
     if (status == FR_OK) {
         count_leaves(organs, count);
+        find_crown(organs);
         if (same != NULL && can_share(organs, same)) {
             share_pieces(organs, same);
         } else {
@@ -339,6 +364,20 @@ static void copy_vertices(const FrShapeMesh *shape, const Matrix *matrix, float 
     memcpy(box->max, &high, sizeof box->max);
 }
 
+// Normals away from the middle of the crown.
+static void turn_away(const FrOrganPlan *organs, FrVertex *vertices, uint32_t count, FrUpAxis up) {
+    vec3s middle = fr_upright(organs->crown, up);
+    for (uint32_t i = 0; i < count; i++) {
+        vec3s at;
+        memcpy(at.raw, vertices[i].position, sizeof at.raw);
+        vec3s out = glms_vec3_sub(at, middle);
+        float length = glms_vec3_norm(out);
+        if (length > 1e-6F) {
+            memcpy(vertices[i].normal, glms_vec3_scale(out, 1.0F / length).raw, sizeof out.raw);
+        }
+    }
+}
+
 void fr_write_piece(const FrOrganPlan *organs, uint32_t piece, FrUpAxis up, const FrSlab *slab,
                     unsigned writing, FrBox *box, FrDeformNote *notes) {
     const FrPlant *plant = organs->plan->plant;
@@ -355,8 +394,12 @@ void fr_write_piece(const FrOrganPlan *organs, uint32_t piece, FrUpAxis up, cons
     if ((writing & FR_WRITE_VERTICES) != 0) {
         FrOrganPose pose = fr_piece_pose(organs, piece);
         Matrix matrix = matrix_of(pose, up);
-        bool is_streamed = (writing & FR_WRITE_STREAM) != 0 && scope == FR_NONE;
+        bool is_read = scope != FR_NONE || shape->is_crown;
+        bool is_streamed = (writing & FR_WRITE_STREAM) != 0 && !is_read;
         copy_vertices(shape, &matrix, pose.scale, out, is_streamed, box);
+        if (shape->is_crown) {
+            turn_away(organs, out, shape->vertex_count, up);
+        }
     }
     if (scope != FR_NONE) {
         fr_deform_vertices(organs->plan, scope, up, out, shape->vertex_count, index,

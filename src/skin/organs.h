@@ -37,6 +37,7 @@ typedef struct FrOrganPlan {
     bool *is_used;                          ///< by shape
     FrLeafGroup *groups;                    ///< by component, then those without one
     double staying;                         ///< part of the leaves
+    vec3s crown;                            ///< middle of the leaves that are shaded away from it
 } FrOrganPlan;
 
 /// What fr_write_piece() writes.

@@ -18,6 +18,9 @@ void fr_outline_init(FrOutline *outline, const FrPlant *plant, uint32_t profile)
 /// Makes the base no narrower than the petiole it stands on, of the same area.
 void fr_outline_thicken(FrOutline *outline, const FrBlade *blade);
 
+/// Cuts a blade whose margin is lobed.
+void fr_outline_lobe(FrOutline *outline, const FrBlade *blade);
+
 /// A row of a blade's mesh.
 typedef struct FrOutlineRow {
     double along;       ///< 0 base to 1 tip

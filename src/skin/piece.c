@@ -138,8 +138,14 @@ static void digest_poses(void *data, size_t begin, size_t end, int worker) {
                            pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w};
         uint64_t words[4];
         memcpy(words, numbers, sizeof words);
-        posing->digests[posing->organs->pieces[i].organ] =
+        uint32_t organ = posing->organs->pieces[i].organ;
+        FrDigest digest =
             fr_digest_both(fr_digest_both(words[0], words[1]), fr_digest_both(words[2], words[3]));
+        uint32_t shape = posing->organs->plan->plant->organs.shape[organ];
+        if (posing->organs->shapes[shape].is_crown) {
+            digest = fr_digest(digest, &posing->organs->crown, sizeof posing->organs->crown);
+        }
+        posing->digests[organ] = digest;
     }
 }
 

@@ -1,6 +1,8 @@
 // The small meshes of organ shapes.
 #include "skin/shape.h"
 
+#include "skin/margin.h"
+
 #include <string.h>
 
 uint32_t fr_shape_vertex(FrShapeMesh *mesh, vec3s position, vec3s normal, float u, float v) {
@@ -43,7 +45,9 @@ uint64_t fr_shape_bytes_most(const FrPlant *plant, const FrShape *shape, const F
     if (shape->kind == FR_SHAPE_BLADE) {
         uint32_t along, across;
         fr_blade_segments(&shape->blade, detail, &along, &across);
-        vertices = (uint64_t)(along + 1) * (2 * across + 1) + 12;
+        vertices =
+            (uint64_t)(along + 1) * (2 * across + 1) + 12 + fr_margin_vertices_most(&shape->blade);
+        vertices = fr_count_multiply(vertices + 64, fr_compound_leaflets(&shape->blade));
     }
     if (shape->kind == FR_SHAPE_FILE) {
         vertices = fr_shape_file_vertices(plant, shape);

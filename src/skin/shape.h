@@ -11,6 +11,7 @@ typedef struct FrShapeMesh {
     uint32_t vertex_count, index_count;
     uint32_t vertex_room, index_room; ///< while it is made
     bool is_foliage;                  ///< open: seen from both sides
+    bool is_crown;                    ///< its normals point away from the middle of the crown
 } FrShapeMesh;
 
 void fr_shape_mesh_init(FrShapeMesh *mesh, const FrPlant *plant, uint32_t shape,
@@ -31,6 +32,16 @@ uint32_t fr_shape_segments(uint32_t wanted, uint32_t least, uint32_t most, const
 /// Quads along a blade and across each half.
 void fr_blade_segments(const FrBlade *blade, const FrDetail *detail, uint32_t *along,
                        uint32_t *across);
+/// A blade with its petiole.
+void fr_lay_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
+                  const FrDetail *detail);
+/// A compound leaf: its rachis and leaflets.
+void fr_lay_compound(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
+                     const FrDetail *detail);
+/// How many leaflets it has at most.
+uint64_t fr_compound_leaflets(const FrBlade *blade);
+/// Turns normals as FrBlade.normals says.
+void fr_turn_normals(FrShapeMesh *mesh, const FrBlade *blade);
 void fr_shape_blade(FrShapeMesh *mesh, const FrPlant *plant, const FrBlade *blade,
                     const FrDetail *detail);
 void fr_shape_revolution(FrShapeMesh *mesh, const FrPlant *plant, const FrShape *shape,

@@ -36,6 +36,34 @@ static void assert_tree(const FrVenation *venation) {
     }
 }
 
+// Main veins of a palm leave the base to both sides; parallel ones keep their order to the tip.
+static void test_patterns(void) {
+    FrMaterialParams params = leaf(1);
+    FrOutline *outline;
+    params.vein_pattern = 1;
+    FrVenation *venation = grow(&params, &outline);
+    assert_tree(venation);
+    uint32_t from_base = 0;
+    for (uint32_t i = 1; i < venation->veins->len; i++) {
+        const FrVein *parent = vein(venation, vein(venation, i)->parent);
+        bool is_thick = vein(venation, i)->radius > 0.3f * vein(venation, 0)->radius;
+        from_base += fabsf(parent->x) < 1e-6f && parent->y < 0.05f && is_thick &&
+                     fabsf(vein(venation, i)->x) > 1e-6f;
+    }
+    g_assert_cmpuint(from_base, >=, 4);
+    done(venation, outline);
+    params.vein_pattern = 2;
+    venation = grow(&params, &outline);
+    assert_tree(venation);
+    for (uint32_t i = 1; i < venation->veins->len; i++) {
+        const FrVein *v = vein(venation, i), *parent = vein(venation, v->parent);
+        g_assert_true(v->parent == 0 || v->x * parent->x >= 0.0f);
+        g_assert_cmpfloat(v->y, >, parent->y);
+        g_assert_cmpfloat(fabsf(v->x), <=, fr_outline_half_width(outline, v->y));
+    }
+    done(venation, outline);
+}
+
 static void test_open(void) {
     FrMaterialParams params = leaf(0);
     FrOutline *outline;
@@ -179,6 +207,8 @@ static void test_distance(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/material/venation/palmate and parallel veins run as they are called",
+                    test_patterns);
     g_test_add_func("/material/venation/open venation is a tree rooted in the petiole", test_open);
     g_test_add_func("/material/venation/closed venation is connected and has loops", test_closed);
     g_test_add_func("/material/venation/veins stay in the blade and have no gaps", test_steps);
