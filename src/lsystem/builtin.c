@@ -1,5 +1,6 @@
 // The functions of the language. Angles in degrees; random numbers from stream B, the generator
 // of drand48 (POSIX), started as cpfg starts it.
+#include "lsystem/scan.h"
 #include "lsystem/view.h"
 #include "lsystem/vm.h"
 
@@ -38,6 +39,9 @@ typedef enum Function {
     F_STOP,
     F_SET_LENGTH,
     F_GET_LENGTH,
+    F_OPEN,
+    F_CLOSE,
+    F_SCAN, ///< compiled to operators of its own
     F_LEFT_OUT
 } Function;
 
@@ -57,8 +61,8 @@ static const struct {
     {"curveZ", F_CURVE_Z, 2, 2}, {"curveGAL", F_CURVE_GAL, 1, 1}, {"printf", F_PRINTF, 0, 32},
     {"stop", F_STOP, 1, 1}, {"SetDerivationLength", F_SET_LENGTH, 1, 1},
     {"GetDerivationLength", F_GET_LENGTH, 0, 1},
-    {"fopen", F_LEFT_OUT, 0, 32}, {"fclose", F_LEFT_OUT, 0, 32}, {"fprintf", F_LEFT_OUT, 0, 32},
-    {"fscanf", F_LEFT_OUT, 0, 32}, {"fflush", F_LEFT_OUT, 0, 32}, {"play", F_LEFT_OUT, 0, 32},
+    {"fopen", F_OPEN, 2, 2}, {"fclose", F_CLOSE, 1, 1}, {"fprintf", F_LEFT_OUT, 0, 32},
+    {"fscanf", F_SCAN, 2, 32}, {"fflush", F_LEFT_OUT, 0, 32}, {"play", F_LEFT_OUT, 0, 32},
     {"Display", F_LEFT_OUT, 0, 32}, {"inblob", F_LEFT_OUT, 0, 32},
     {"vvXmin", F_LEFT_OUT, 0, 1}, {"vvXmax", F_LEFT_OUT, 0, 1}, {"vvYmin", F_LEFT_OUT, 0, 1},
     {"vvYmax", F_LEFT_OUT, 0, 1}, {"vvZmin", F_LEFT_OUT, 0, 1}, {"vvZmax", F_LEFT_OUT, 0, 1},
@@ -80,7 +84,8 @@ uint32_t fr_lbuiltin_find(const char *name, uint32_t *least, uint32_t *most) {
 bool fr_lbuiltin_is_pure(uint32_t function) {
     Function f = functions[function].function;
     bool draws = f >= F_SRAND && f <= F_BIRAN;
-    return !draws && f != F_STOP && f != F_SET_LENGTH && f != F_PRINTF;
+    return !draws && f != F_STOP && f != F_SET_LENGTH && f != F_PRINTF && f != F_OPEN &&
+           f != F_CLOSE;
 }
 
 bool fr_lbuiltin_is_left_out(uint32_t function) {
@@ -209,7 +214,8 @@ static double call_random(FrLmachine *machine, Function function, const double *
     }
 }
 
-double fr_lbuiltin_call(FrLmachine *machine, uint32_t index, const double *x, uint32_t count) {
+double fr_lbuiltin_call(FrLmachine *machine, uint32_t index, const double *x, uint32_t count,
+                        uint32_t place) {
     Function function = functions[index].function;
     if (function == F_ATAN) {
         return degrees(atan(x[count - 1]));
@@ -240,6 +246,11 @@ double fr_lbuiltin_call(FrLmachine *machine, uint32_t index, const double *x, ui
         return 0;
     case F_GET_LENGTH:
         return (double)machine->length;
+    case F_OPEN:
+        return fr_lfile_open(machine, x[0], x[1], place);
+    case F_CLOSE:
+        fr_lfile_close(machine, x[0]);
+        return 0;
     default:
         return 0;
     }

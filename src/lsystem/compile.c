@@ -110,6 +110,7 @@ void fr_lsystem_free(FrLsystem *system) {
     }
     g_ptr_array_unref(system->strings);
     g_ptr_array_unref(system->units);
+    g_free(system->folder);
     g_free(system);
 }
 
@@ -197,6 +198,7 @@ FrStatus fr_lsystem_compile(FrSource *source, const FrLoptions *options, const F
         return status;
     }
     FrLsystem *system = system_new(text);
+    system->folder = g_strdup(options->folder);
     FrStatus parsed = parse(system, options, context);
     status = MAX(status, parsed);
     if (status != FR_OK) {

@@ -3,6 +3,7 @@
 #include "lsystem/derive.h"
 
 #include "lsystem/ask.h"
+#include "lsystem/scan.h"
 
 #include <math.h>
 
@@ -95,6 +96,12 @@ static const char *fault_text(const char *code) {
     }
     if (strcmp(code, "unknown-call") == 0) {
         return "there is no L-system of that label; the call does nothing";
+    }
+    if (strcmp(code, "missing-file") == 0) {
+        return "this file is not there, beside the L-system; nothing is read";
+    }
+    if (strcmp(code, "left-out") == 0) {
+        return "files are read but not written";
     }
     if (strcmp(code, "no-number") == 0) {
         return "this parameter is infinite or no number";
@@ -276,6 +283,10 @@ static FrStatus begin(FrLderivation *derivation, const FrContext *context) {
     return MAX(status, checked);
 }
 
+static void file_free(void *file) {
+    fr_lfile_free(file);
+}
+
 FrStatus fr_lderivation_new(const FrLsystem *system, const FrLsettings *settings,
                             const FrContext *context, FrLderivation **out) {
     *out = NULL;
@@ -295,9 +306,11 @@ FrStatus fr_lderivation_new(const FrLsystem *system, const FrLsettings *settings
     derivation->instances = g_ptr_array_new();
     derivation->choices = g_array_new(FALSE, FALSE, sizeof(uint16_t));
     derivation->told = g_hash_table_new(NULL, NULL);
+    derivation->files = g_ptr_array_new_with_free_func(file_free);
     derivation->is_parallel = can_be_parallel(system);
     derivation->machine = (FrLmachine){.system = system,
                                        .view = derivation->view,
+                                       .files = derivation->files,
                                        .random = {.state = FR_LSTREAM_START},
                                        .most_loops = context->limits.iterations,
                                        .print = derivation->settings.print,
@@ -329,6 +342,7 @@ void fr_lderivation_free(FrLderivation *derivation) {
     }
     g_ptr_array_unref(derivation->instances);
     g_array_unref(derivation->choices);
+    g_ptr_array_unref(derivation->files);
     g_hash_table_unref(derivation->told);
     fr_lstring_free(derivation->string);
     fr_lstring_free(derivation->other);

@@ -34,7 +34,8 @@ struct FrLderivation {
     uint64_t variables;        ///< of all instances
     uint64_t random;           ///< stream A, one for all L-systems of the file
     FrLmachine machine;
-    GArray *choices; ///< uint16_t: production of each module + 1, in parallel steps
+    GPtrArray *files; ///< FrLfile *, some NULL: that the text has open
+    GArray *choices;  ///< uint16_t: production of each module + 1, in parallel steps
     int64_t length;
     uint64_t step;
     bool is_parallel; ///< nothing that a step does depends on the order of modules

@@ -49,6 +49,9 @@ void fr_lparse_skip_line(FrLparser *parser);
 
 // ---- parse_expression.c -----------------------------------------------------------------------
 
+/// The next character of an expression, '\\0' at the end. cpfg reads over `\` there, which long
+/// macros leave behind.
+char fr_lparse_peek_value(FrLparser *parser);
 /// A number, name, call or bracket, with the signs before it.
 void fr_lparse_unary(FrLparser *parser);
 /// Lets the jump at `jump` lead to the code that comes next.

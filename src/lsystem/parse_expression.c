@@ -74,6 +74,9 @@ static int stack_effect(FrLop op, uint32_t n) {
         return -1 - (int)n;
     case FR_LOP_JUMP_TRUE:
         return 0;
+    case FR_LOP_SCAN_END:
+        return 1;
+    case FR_LOP_SCAN_BEGIN:
     case FR_LOP_STORE:
     case FR_LOP_DROP:
     case FR_LOP_JUMP_ZERO:
@@ -184,7 +187,6 @@ static uint32_t read_arguments(FrLparser *parser) {
         if (text != FR_NONE) {
             fr_lparse_emit(parser, FR_LOP_CONST, 0, 0, text, parser->at);
         } else {
-            fr_lparse_accept(parser, "&"); // the address of what a left-out function would fill
             fr_lparse_expression(parser);
         }
         count++;
@@ -193,8 +195,79 @@ static uint32_t read_arguments(FrLparser *parser) {
     return count;
 }
 
+/// The indices of an array, whose values are left on the stack; how many.
+static uint32_t read_indices(FrLparser *parser, uint32_t array, size_t begin) {
+    uint32_t count = 0;
+    while (!parser->has_failed && fr_lparse_accept(parser, "[")) {
+        fr_lparse_expression(parser);
+        fr_lparse_expect(parser, "]");
+        count++;
+    }
+    uint32_t wanted = g_array_index(parser->system->arrays, FrLarray, array).dimension_count;
+    if (count != wanted) {
+        fr_lparse_error(parser, begin, parser->at, "argument-count",
+                        "this array has %u dimensions, here are %u", wanted, count);
+    }
+    return count;
+}
+
+static void read_index(FrLparser *parser, uint32_t array, size_t begin) {
+    uint32_t count = read_indices(parser, array, begin);
+    fr_lparse_emit(parser, FR_LOP_INDEX, array, count, 0, begin);
+}
+
+/// A variable that fscanf() fills: it keeps its value where the file has no number.
+static void read_target(FrLparser *parser) {
+    fr_lparse_accept(parser, "&");
+    fr_lparse_blanks(parser);
+    size_t begin = parser->at;
+    char *name = fr_lparse_name(parser);
+    if (name == NULL) {
+        fr_lparse_error(parser, begin, begin + 1, "syntax", "'&' and a variable are wanted here");
+        return;
+    }
+    uint32_t array = fr_lparse_find_array(parser, name);
+    if (array == FR_NONE) {
+        uint32_t variable = fr_lparse_variable(parser, name, true, begin);
+        fr_lparse_emit(parser, FR_LOP_VAR, variable, 0, 0, begin);
+        fr_lparse_emit(parser, FR_LOP_SCAN_NEXT, 0, 0, 0, begin);
+        fr_lparse_emit(parser, FR_LOP_STORE, variable, 0, 0, begin);
+    } else {
+        // Its indices once to store, once for the value it has.
+        size_t indices = parser->at;
+        uint32_t count = read_indices(parser, array, begin);
+        parser->at = indices;
+        read_index(parser, array, begin);
+        fr_lparse_emit(parser, FR_LOP_SCAN_NEXT, 0, 0, 0, begin);
+        fr_lparse_emit(parser, FR_LOP_INDEX_STORE, array, count, 0, begin);
+    }
+    g_free(name);
+}
+
+/// fscanf(file, "format", &variable, …) behind its bracket.
+static void read_scan(FrLparser *parser, size_t begin) {
+    fr_lparse_expression(parser);
+    fr_lparse_expect(parser, ",");
+    uint32_t text = parser->has_failed ? FR_NONE : fr_lparse_string(parser);
+    if (text == FR_NONE) {
+        fr_lparse_error(parser, parser->at, parser->at + 1, "syntax", "fscanf needs a text");
+        return;
+    }
+    fr_lparse_emit(parser, FR_LOP_SCAN_BEGIN, text, 0, 0, begin);
+    while (!parser->has_failed && fr_lparse_accept(parser, ",")) {
+        read_target(parser);
+    }
+    fr_lparse_expect(parser, ")");
+    fr_lparse_emit(parser, FR_LOP_SCAN_END, 0, 0, 0, begin);
+    parser->is_impure = true;
+}
+
 static void read_builtin(FrLparser *parser, uint32_t function, const char *name, uint32_t least,
                          uint32_t most, size_t begin) {
+    if (strcmp(name, "fscanf") == 0) {
+        read_scan(parser, begin);
+        return;
+    }
     bool is_print = strcmp(name, "printf") == 0;
     uint32_t text = FR_NONE, count;
     if (is_print) {
@@ -255,21 +328,6 @@ static void read_call(FrLparser *parser, const char *name, size_t begin) {
         return;
     }
     read_builtin(parser, function, name, least, most, begin);
-}
-
-static void read_index(FrLparser *parser, uint32_t array, size_t begin) {
-    uint32_t count = 0;
-    while (!parser->has_failed && fr_lparse_accept(parser, "[")) {
-        fr_lparse_expression(parser);
-        fr_lparse_expect(parser, "]");
-        count++;
-    }
-    uint32_t wanted = g_array_index(parser->system->arrays, FrLarray, array).dimension_count;
-    if (count != wanted) {
-        fr_lparse_error(parser, begin, parser->at, "argument-count",
-                        "this array has %u dimensions, here are %u", wanted, count);
-    }
-    fr_lparse_emit(parser, FR_LOP_INDEX, array, count, 0, begin);
 }
 
 // `fi` of a paper is f(i) where f is a function and i a formal parameter.
@@ -355,8 +413,16 @@ static void read_primary(FrLparser *parser) {
     }
 }
 
+char fr_lparse_peek_value(FrLparser *parser) {
+    char c;
+    while ((c = fr_lparse_peek(parser)) == '\\') {
+        parser->at++;
+    }
+    return c;
+}
+
 void fr_lparse_unary(FrLparser *parser) {
-    char c = fr_lparse_peek(parser);
+    char c = fr_lparse_peek_value(parser);
     size_t begin = parser->at;
     if (parser->has_failed) {
         return;

@@ -23,7 +23,7 @@ static const Operator binary[] = {
 };
 
 static const Operator *next_operator(FrLparser *parser) {
-    fr_lparse_peek(parser);
+    fr_lparse_peek_value(parser);
     const char *here = parser->bytes + parser->at;
     if (here[0] == '-' && (here[1] == '>' || (here[1] != '\0' && here[2] == '>'))) {
         bool is_arrow =

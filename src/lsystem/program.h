@@ -81,6 +81,9 @@ typedef enum FrLop {
     FR_LOP_JUMP_TRUE,      ///< to a if the top is true as a byte, and keep it
     FR_LOP_CALL,           ///< built-in function a with n arguments
     FR_LOP_PRINT,          ///< printf with text a and n arguments
+    FR_LOP_SCAN_BEGIN,     ///< pop a file, read from it by text a
+    FR_LOP_SCAN_NEXT,      ///< the top becomes the next number, if there is one
+    FR_LOP_SCAN_END,       ///< push how many there were
     FR_LOP_USER,           ///< function a of the file, n arguments
     FR_LOP_PUT,            ///< pop to word a of the successor
     FR_LOP_VAR_MULTIPLY,   ///< top times variable a
@@ -193,6 +196,7 @@ struct FrLsystem {
     GPtrArray *strings;  ///< char *, owned
     GPtrArray *units;    ///< FrLunit *, owned
     GArray *values;      ///< double: set from outside, variables from FR_LVAR_FIRST on
+    char *folder;        ///< owned; where files are read from, NULL: nowhere
     bool is_open;        ///< asks an environment or the turtle
     bool has_cut;        ///< % occurs
     bool has_at;         ///< @ occurs, so that more of the turtle's state may change

@@ -15,6 +15,16 @@ static void set_tropisms(FrLpose *pose, const FrLview *view) {
     }
 }
 
+/// `$` only ends calls in cpfg.
+static void set_idle(FrLturtle *turtle, const FrLsystem *system) {
+    bool ends_calls = system->is_paper || system->units->len > 1;
+    for (int symbol = 1; symbol < FR_LSYMBOLS; symbol++) {
+        bool is_known = strchr("FfGg+-&^/\\|#![]{}.;,_%~@?", symbol) != NULL;
+        bool is_site = turtle->has_sites && strchr(turtle->builder->sites, symbol) != NULL;
+        turtle->is_idle[symbol] = !is_known && !is_site && (symbol != '$' || !ends_calls);
+    }
+}
+
 void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuilder *builder,
                      const FrContext *context) {
     const FrLview *view = derivation->view;
@@ -51,6 +61,7 @@ void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuil
     for (size_t i = 0; i < G_N_ELEMENTS(turtle->turns); i++) {
         turtle->turns[i].cosine = 1;
     }
+    set_idle(turtle, derivation->system);
 }
 
 void fr_lturtle_clear(FrLturtle *turtle) {
@@ -431,7 +442,10 @@ void fr_lturtle_read(FrLturtle *turtle, const FrLstring *string) {
     uint64_t origin = 0;
     for (uint64_t at = 0; at < string->count && turtle->status == FR_OK; origin++) {
         const uint32_t *module = string->words + at;
-        take(turtle, module, origin);
+        bool is_special = turtle->is_raw || turtle->skip > 0;
+        if (is_special || !turtle->is_idle[fr_lhead_symbol(*module)]) {
+            take(turtle, module, origin);
+        }
         at += 1 + fr_lhead_count(*module);
         if ((origin & 0xFFFF) == 0 && fr_progress_is_cancelled(turtle->context->progress)) {
             turtle->status = FR_CANCELLED;

@@ -104,6 +104,7 @@ typedef struct FrLturtle {
     bool is_dollar_vertical; ///< `$` turns as in The Algorithmic Beauty of Plants
     bool has_sites;          ///< some symbols place something
     uint64_t modules;
+    bool is_idle[FR_LSYMBOLS]; ///< symbols that never do anything
     FrStatus status;
     double sine, cosine; ///< of the angle increment
     struct {

@@ -1,6 +1,8 @@
 // The evaluator. What would be an error in arithmetic has a defined value and is told once.
 #include "lsystem/vm.h"
 
+#include "lsystem/scan.h"
+
 #include <math.h>
 
 /// C's conversion to int where that is defined, else the nearest int.
@@ -239,13 +241,22 @@ double fr_lmachine_run(FrLmachine *machine, uint32_t start) {
             break;
         case FR_LOP_CALL:
             top -= code->n;
-            *top = fr_lbuiltin_call(machine, code->a, top, code->n);
+            *top = fr_lbuiltin_call(machine, code->a, top, code->n, place);
             top++;
             break;
         case FR_LOP_PRINT:
             top -= code->n;
             print(machine, code, top);
             *top++ = 0;
+            break;
+        case FR_LOP_SCAN_BEGIN:
+            fr_lscan_begin(machine, *--top, code->a);
+            break;
+        case FR_LOP_SCAN_NEXT:
+            top[-1] = fr_lscan_next(machine, top[-1]);
+            break;
+        case FR_LOP_SCAN_END:
+            *top++ = fr_lscan_end(machine);
             break;
         case FR_LOP_USER:
             top -= code->n;

@@ -23,6 +23,14 @@ typedef struct FrLrandom {
     bool has_spare, is_seeded;
 } FrLrandom;
 
+/// A reading of numbers by a format: fscanf().
+typedef struct FrLscan {
+    struct FrLfile *file; ///< NULL: there is none
+    const char *format;   ///< what is left of it
+    uint32_t count;       ///< numbers so far
+    bool has_failed, is_at_end;
+} FrLscan;
+
 /// State of an evaluation. One for each thread; impure code only runs on the first.
 typedef struct FrLmachine {
     const FrLsystem *system;
@@ -34,6 +42,8 @@ typedef struct FrLmachine {
     uint64_t module; ///< at work, for faults
     FrLfault faults[FR_LFAULTS];
     uint32_t fault_count;
+    GPtrArray *files; ///< FrLfile *, some NULL: opened and not closed; borrowed
+    FrLscan scan;
     int64_t *set_length; ///< SetDerivationLength writes here
     uint64_t length;
     bool is_stopped;  ///< by stop()
@@ -51,9 +61,9 @@ void fr_lmachine_fault(FrLmachine *machine, const char *code, uint32_t place);
 /// A production of a decomposition or homomorphism would go deeper than it may.
 void fr_lmachine_fault_depth(FrLmachine *machine, const char *code,
                              const FrLproduction *production);
-/// Calls a built-in function.
+/// Calls a built-in function that stands at `place`.
 double fr_lbuiltin_call(FrLmachine *machine, uint32_t function, const double *arguments,
-                        uint32_t count);
+                        uint32_t count, uint32_t place);
 
 // ---- the two streams of random numbers, bit for bit those of cpfg -----------------------------
 

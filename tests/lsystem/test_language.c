@@ -81,6 +81,12 @@ static void test_macros(void) {
                "Apex", "Apex --> Seg(N) [Apex]", 1, "F(3)+(6)[A]");
 }
 
+// Two backslashes before a line end leave one, as in models of the field's library.
+static void test_backslash(void) {
+    check_cpfg("#define twice(x) \\\\\n\t(2*x)\n", "A(3)", "A(x) --> \\B(twice(x) + 1)", 1,
+               "\\B(7)");
+}
+
 static void test_hash(void) {
     check_cpfg("", "#(3)", "* < #(d) --> #(d*2)", 1, "#(6)");
 }
@@ -336,6 +342,7 @@ int main(int argc, char **argv) {
         {"two slashes begin a comment even in a string", test_comment_trap},
         {"a tab continues a line", test_continuation},
         {"macros stand for symbols and modules", test_macros},
+        {"a backslash in an expression is read over", test_backslash},
         {"a number sign may follow an empty context", test_hash},
         {"the left context is bound last and formals hide globals", test_formals},
         {"variables of a production keep their values", test_static_locals},
