@@ -5,10 +5,13 @@
 
 #include <math.h>
 
-/// A name that `--set` may call it by; none is as good.
-static void check_name(FrReader *reader, uint32_t node, const char *id) {
-    if (id != NULL && *id != '\0') {
-        g_free(fr_read_id(reader, node));
+/// A name that `--set` may call it by; none is as good. `names` are those of lamps and obstacles
+/// before.
+static void check_name(FrReader *reader, uint32_t node, const char *id, GHashTable *names) {
+    char *name = id != NULL && *id != '\0' ? fr_read_id(reader, node) : NULL;
+    if (name != NULL && !g_hash_table_add(names, name)) {
+        fr_read_error(reader, "duplicate-id", fr_read_value_place(reader, node, "id"),
+                      "there is a lamp or an obstacle '%s' already", id);
     }
 }
 
@@ -25,13 +28,13 @@ static void read_obstacle_mesh(FrReader *reader, uint32_t node, FrObstacle *obst
     fr_read_note(reader, status);
 }
 
-static void read_obstacle(FrReader *reader, uint32_t node) {
+static void read_obstacle(FrReader *reader, uint32_t node, GHashTable *names) {
     fr_read_check_children(reader, node, FR_ELEMENT_OBSTACLE);
     FrObstacle *obstacle = g_new0(FrObstacle, 1);
     fr_params_init(fr_obstacle_table(), obstacle);
     obstacle->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
     fr_read_attributes(reader, node, FR_ELEMENT_OBSTACLE, obstacle);
-    check_name(reader, node, obstacle->id);
+    check_name(reader, node, obstacle->id, names);
     obstacle->made_of = fr_read_material(reader, node, "material", obstacle->material);
     if (obstacle->shape == FR_OBSTACLE_MESH) {
         read_obstacle_mesh(reader, node, obstacle);
@@ -65,13 +68,13 @@ static void read_terrain(FrReader *reader, uint32_t node) {
     g_free(path);
 }
 
-static void read_lamp(FrReader *reader, uint32_t node) {
+static void read_lamp(FrReader *reader, uint32_t node, GHashTable *names) {
     fr_read_check_children(reader, node, FR_ELEMENT_LAMP);
     FrLampParams *lamp = g_new0(FrLampParams, 1);
     fr_params_init(fr_lamp_table(), lamp);
     lamp->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
     fr_read_attributes(reader, node, FR_ELEMENT_LAMP, lamp);
-    check_name(reader, node, lamp->id);
+    check_name(reader, node, lamp->id, names);
     vec3s d = lamp->direction;
     if (d.x == 0 && d.y == 0 && d.z == 0) {
         fr_read_error(reader, "no-direction", fr_read_value_place(reader, node, "direction"),
@@ -143,9 +146,10 @@ static void warn_of_lamps(FrReader *reader) {
 }
 
 void fr_read_surroundings(FrReader *reader, uint32_t scene) {
+    GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
     for (uint32_t node = fr_read_first(reader, scene, FR_ELEMENT_OBSTACLE); node != FR_NONE;
          node = fr_read_next(reader, node, FR_ELEMENT_OBSTACLE)) {
-        read_obstacle(reader, node);
+        read_obstacle(reader, node, names);
     }
     uint32_t terrain = fr_read_first(reader, scene, FR_ELEMENT_TERRAIN);
     if (terrain != FR_NONE) {
@@ -153,8 +157,9 @@ void fr_read_surroundings(FrReader *reader, uint32_t scene) {
     }
     for (uint32_t node = fr_read_first(reader, scene, FR_ELEMENT_LAMP); node != FR_NONE;
          node = fr_read_next(reader, node, FR_ELEMENT_LAMP)) {
-        read_lamp(reader, node);
+        read_lamp(reader, node, names);
     }
+    g_hash_table_unref(names);
     uint32_t sun = fr_read_first(reader, scene, FR_ELEMENT_SUN);
     if (sun != FR_NONE) {
         read_sun(reader, sun, scene);

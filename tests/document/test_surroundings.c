@@ -104,6 +104,8 @@ static void test_set(void) {
     }
     assert_wrong(SCENE("<lamp id='a.b'/>"), "bad-id");
     assert_wrong(SCENE("<obstacle id='9'/>"), "bad-id");
+    assert_wrong(SCENE("<lamp id='desk'/><obstacle/><obstacle/><obstacle id='desk'/>"),
+                 "duplicate-id");
 }
 
 /// Shadow voxels do not see lamps.
