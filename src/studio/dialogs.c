@@ -37,6 +37,9 @@ static GtkWidget *display_row(const char *title, const char *subtitle, const cha
 void studio_window_show_preferences(StudioWindow *window) {
     GtkWidget *dialog = adw_preferences_window_new();
     GtkWidget *page = adw_preferences_page_new();
+    adw_preferences_page_set_title(ADW_PREFERENCES_PAGE(page), "Preferences");
+    adw_preferences_page_set_icon_name(ADW_PREFERENCES_PAGE(page), "preferences-system-symbolic");
+    adw_preferences_window_set_search_enabled(ADW_PREFERENCES_WINDOW(dialog), FALSE);
     GtkWidget *look = adw_preferences_group_new(), *picture = adw_preferences_group_new();
     adw_preferences_group_set_title(ADW_PREFERENCES_GROUP(look), "Appearance");
     adw_preferences_group_set_title(ADW_PREFERENCES_GROUP(picture), "Picture");

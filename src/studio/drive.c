@@ -15,6 +15,8 @@ typedef struct Drive {
     StudioWindow *window;
     GIOChannel *input;
     int settled; // checks in a row that found nothing to wait for
+    int frames;  // still to be drawn in orbit
+    gint64 began;
 } Drive;
 
 static void answer(const char *format, ...) G_GNUC_PRINTF(1, 2);
@@ -36,7 +38,9 @@ static void listen(Drive *drive) {
 
 // ---- commands ----------------------------------------------------------------------------------
 
-static void do_action(StudioWindow *window, const char *detailed) {
+static void do_action(Drive *drive, char *const *words, const char *detailed) {
+    (void)words;
+    StudioWindow *window = drive->window;
     char *name;
     GVariant *target;
     GError *error = NULL;
@@ -71,7 +75,9 @@ static GtkWidget *find_widget(GtkWidget *within, const char *name) {
     return found;
 }
 
-static void where(StudioWindow *window, const char *name) {
+static void where(Drive *drive, char *const *words, const char *name) {
+    (void)words;
+    StudioWindow *window = drive->window;
     graphene_rect_t box;
     GtkWidget *from = GTK_WIDGET(window->graph);
     bool is_there = studio_graph_panel_where(window->graph, name, &box);
@@ -94,7 +100,10 @@ static void where(StudioWindow *window, const char *name) {
     }
 }
 
-static void state(StudioWindow *window) {
+static void state(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    StudioWindow *window = drive->window;
     StudioDocument *document = window->document;
     StudioPace pace = studio_viewport_pace(window->viewport);
     StudioAmount amount = studio_viewport_amount(window->viewport);
@@ -127,56 +136,161 @@ static gboolean on_wait(gpointer data) {
     return G_SOURCE_REMOVE;
 }
 
-static void turn(StudioWindow *window, char *const *words) {
-    double azimuth = g_ascii_strtod(words[1], NULL) * G_PI / 180;
-    double elevation = g_ascii_strtod(words[2], NULL) * G_PI / 180;
-    studio_viewport_move(window->viewport, azimuth, elevation, g_ascii_strtod(words[3], NULL));
+static void size(Drive *drive, char *const *words, const char *rest) {
+    (void)rest;
+    gtk_window_set_default_size(GTK_WINDOW(drive->window), atoi(words[1]), atoi(words[2]));
     answer("ok");
 }
 
-// False if the next line has to wait.
-static bool obey(Drive *drive, char *line) {
-    StudioWindow *window = drive->window;
-    char **words = g_strsplit(line, " ", 4);
-    guint count = g_strv_length(words);
-    const char *rest = strchr(line, ' ') == NULL ? "" : strchr(line, ' ') + 1;
-    bool goes_on = true;
-    if (count == 0 || strcmp(words[0], "wait") == 0) {
-        drive->settled = 0;
-        g_timeout_add(WAIT_MILLISECONDS, on_wait, drive);
-        goes_on = false;
-    } else if (strcmp(words[0], "do") == 0) {
-        do_action(window, rest);
-    } else if (strcmp(words[0], "open") == 0) {
-        window->is_closing = true;
-        FrDiags *diags = fr_diags_new();
-        StudioDocument *document;
-        bool is_open = studio_document_open(rest, diags, &document) == FR_OK;
-        if (is_open) {
-            studio_window_take(window, document);
+static void turn(Drive *drive, char *const *words, const char *rest) {
+    (void)rest;
+    double azimuth = g_ascii_strtod(words[1], NULL) * G_PI / 180;
+    double elevation = g_ascii_strtod(words[2], NULL) * G_PI / 180;
+    studio_viewport_move(drive->window->viewport, azimuth, elevation,
+                         g_ascii_strtod(words[3], NULL));
+    answer("ok");
+}
+
+static void open_file(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    StudioDocument *document;
+    bool is_open = studio_document_open(rest, NULL, &document) == FR_OK;
+    if (is_open) {
+        studio_window_take(drive->window, document);
+    }
+    answer("%s", is_open ? "ok" : "error it cannot be opened");
+}
+
+static void picture(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    answer("%s", studio_picture_save(GTK_WIDGET(drive->window), rest) ? "ok" : "error no picture");
+}
+
+// The dialog above the window; NULL.
+static GtkWindow *find_dialog(StudioWindow *window) {
+    GtkWindow *found = NULL;
+    GList *all = gtk_window_list_toplevels();
+    for (GList *at = all; at != NULL; at = at->next) {
+        if (gtk_window_get_transient_for(at->data) == GTK_WINDOW(window)) {
+            found = at->data;
         }
-        answer("%s", is_open ? "ok" : "error it cannot be opened");
-        fr_diags_free(diags);
-    } else if (strcmp(words[0], "size") == 0 && count == 3) {
-        gtk_window_set_default_size(GTK_WINDOW(window), atoi(words[1]), atoi(words[2]));
-        answer("ok");
-    } else if (strcmp(words[0], "turn") == 0 && count == 4) {
-        turn(window, words);
-    } else if (strcmp(words[0], "where") == 0) {
-        where(window, rest);
-    } else if (strcmp(words[0], "picture") == 0) {
-        answer("%s", studio_picture_save(GTK_WIDGET(window), rest) ? "ok" : "error no picture");
-    } else if (strcmp(words[0], "state") == 0) {
-        state(window);
-    } else if (strcmp(words[0], "quit") == 0) {
-        answer("ok");
-        window->is_closing = true;
-        gtk_window_close(GTK_WINDOW(window));
-        g_io_channel_unref(drive->input);
-        g_free(drive);
-        goes_on = false;
-    } else {
-        answer("error %s is no command", words[0]);
+    }
+    g_list_free(all);
+    return found;
+}
+
+static void picture_of_dialog(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    GtkWindow *dialog = find_dialog(drive->window);
+    bool is_saved = dialog != NULL && studio_picture_save(GTK_WIDGET(dialog), rest);
+    answer("%s", is_saved ? "ok" : "error no picture");
+}
+
+static void close_dialog(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    GtkWindow *dialog = find_dialog(drive->window);
+    if (dialog != NULL) {
+        gtk_window_close(dialog);
+    }
+    answer("%s", dialog != NULL ? "ok" : "error there is no dialog");
+}
+
+static void keep(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    answer("%s", studio_recovery_update(drive->window->recovery) ? "ok" : "error the disk failed");
+}
+
+static void restore(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    char *folder = studio_recovery_folder();
+    GPtrArray *list = studio_recovery_list(folder);
+    StudioDocument *document =
+        list->len == 0 ? NULL : studio_recovery_restore(g_ptr_array_index(list, 0), NULL);
+    if (document != NULL) {
+        studio_window_take(drive->window, document);
+        studio_recovery_discard(g_ptr_array_index(list, 0));
+    }
+    answer("%s", document != NULL ? "ok" : "error nothing was left");
+    g_ptr_array_unref(list);
+    g_free(folder);
+}
+
+static gboolean on_orbit(GtkWidget *viewport, GdkFrameClock *clock, gpointer data) {
+    (void)clock;
+    Drive *drive = data;
+    if (drive->frames-- > 0) {
+        studio_viewport_move(STUDIO_VIEWPORT(viewport), 0.03, 0, 1);
+        return G_SOURCE_CONTINUE;
+    }
+    answer("%.6f", (double)(g_get_monotonic_time() - drive->began) * 1e-6);
+    listen(drive);
+    return G_SOURCE_REMOVE;
+}
+
+static void orbit(Drive *drive, char *const *words, const char *rest) {
+    (void)rest;
+    drive->frames = atoi(words[1]);
+    drive->began = g_get_monotonic_time();
+    gtk_widget_add_tick_callback(GTK_WIDGET(drive->window->viewport), on_orbit, drive, NULL);
+}
+
+static void wait_for_rest(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    drive->settled = 0;
+    g_timeout_add(WAIT_MILLISECONDS, on_wait, drive);
+}
+
+static void quit(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    answer("ok");
+    drive->window->is_closing = true;
+    gtk_window_close(GTK_WINDOW(drive->window));
+    g_io_channel_unref(drive->input);
+    g_free(drive);
+}
+
+static const struct {
+    const char *name;
+    void (*obey)(Drive *drive, char *const *words, const char *rest);
+    guint words;  // at least
+    bool is_last; // another line is read only when it has been done, or never
+} commands[] = {
+    {"do", do_action, 2, false},
+    {"open", open_file, 2, false},
+    {"wait", wait_for_rest, 1, true},
+    {"size", size, 3, false},
+    {"turn", turn, 4, false},
+    {"orbit", orbit, 2, true},
+    {"where", where, 2, false},
+    {"picture", picture, 2, false},
+    {"picture-of-dialog", picture_of_dialog, 2, false},
+    {"close-dialog", close_dialog, 1, false},
+    {"state", state, 1, false},
+    {"keep", keep, 1, false},
+    {"restore", restore, 1, false},
+    {"quit", quit, 1, true},
+};
+
+// False if the next line has to wait.
+static bool obey(Drive *drive, const char *line) {
+    char **words = g_strsplit(line, " ", 4);
+    const char *rest = strchr(line, ' ') == NULL ? "" : strchr(line, ' ') + 1;
+    bool goes_on = true, is_known = false;
+    for (size_t i = 0; i < G_N_ELEMENTS(commands) && !is_known; i++) {
+        is_known = words[0] != NULL && strcmp(words[0], commands[i].name) == 0 &&
+                   g_strv_length(words) >= commands[i].words;
+        if (is_known) {
+            goes_on = !commands[i].is_last;
+            commands[i].obey(drive, words, rest);
+        }
+    }
+    if (!is_known) {
+        answer("error '%s' is no command", line);
     }
     g_strfreev(words);
     return goes_on;

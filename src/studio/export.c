@@ -70,6 +70,7 @@ static void on_done(GObject *source, GAsyncResult *result, gpointer data) {
     (void)source;
     (void)result;
     Job *job = data;
+    job->window->exports--;
     if (job->exported.status == FR_OK) {
         char *size = g_format_size(job->exported.stats.bytes);
         studio_window_say(job->window, "Wrote %s, %s", job->path, size);
@@ -88,23 +89,28 @@ static void on_done(GObject *source, GAsyncResult *result, gpointer data) {
     }
 }
 
-static void begin(Job *job, const char *path) {
-    const StudioProfile *profile = profile_of(job);
+static void start(Job *job) {
     StudioDocument *document = job->window->document;
-    job->path = g_str_has_suffix(path, profile->extension)
-                    ? g_strdup(path)
-                    : g_strconcat(path, profile->extension, NULL);
     job->source = fr_source_ref(studio_document_source(document));
     job->folder = g_strdup(studio_document_folder(document));
-    job->leaves = profile->leaves;
-    job->level = (int)gtk_spin_button_get_value(GTK_SPIN_BUTTON(job->lod));
-    gtk_widget_set_sensitive(job->write, FALSE);
-    gtk_widget_set_visible(job->bar, TRUE);
+    job->window->exports++;
     job->timer = g_timeout_add(100, on_timer, job);
     GTask *task = g_task_new(NULL, NULL, on_done, job);
     g_task_set_task_data(task, job, NULL);
     g_task_run_in_thread(task, work);
     g_object_unref(task);
+}
+
+static void begin(Job *job, const char *path) {
+    const StudioProfile *profile = profile_of(job);
+    job->path = g_str_has_suffix(path, profile->extension)
+                    ? g_strdup(path)
+                    : g_strconcat(path, profile->extension, NULL);
+    job->leaves = profile->leaves;
+    job->level = (int)gtk_spin_button_get_value(GTK_SPIN_BUTTON(job->lod));
+    gtk_widget_set_sensitive(job->write, FALSE);
+    gtk_widget_set_visible(job->bar, TRUE);
+    start(job);
 }
 
 static void on_chosen(GtkNativeDialog *chooser, int response, Job *job) {
@@ -184,11 +190,22 @@ static GtkWidget *make_level(Job *job) {
     return row;
 }
 
-void studio_window_export(StudioWindow *window) {
+static Job *job_new(StudioWindow *window) {
     Job *job = g_new0(Job, 1);
     job->window = g_object_ref(window);
     job->progress = fr_progress_new(report, job);
     job->diags = fr_diags_new();
+    return job;
+}
+
+void studio_window_export_to(StudioWindow *window, const char *path) {
+    Job *job = job_new(window);
+    job->path = g_strdup(path);
+    start(job);
+}
+
+void studio_window_export(StudioWindow *window) {
+    Job *job = job_new(window);
     job->dialog = adw_window_new();
     g_object_add_weak_pointer(G_OBJECT(job->dialog), (gpointer *)&job->dialog);
     GtkWidget *group = adw_preferences_group_new();

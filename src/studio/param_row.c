@@ -58,11 +58,15 @@ static gboolean on_slide(GtkRange *range, GtkScrollType scroll, double value, St
     return FALSE;
 }
 
-static void on_slide_end(GtkGesture *gesture, GdkEventSequence *sequence, StudioParamRow *row) {
-    (void)gesture;
-    (void)sequence;
-    g_signal_emit(row, signals[SIGNAL_SEALED], 0);
-    studio_param_row_show(row, row->value); // the range goes by the new value now
+static gboolean on_scale_event(GtkEventControllerLegacy *controller, GdkEvent *event,
+                               StudioParamRow *row) {
+    (void)controller;
+    GdkEventType type = gdk_event_get_event_type(event);
+    if (type == GDK_BUTTON_RELEASE || type == GDK_KEY_RELEASE || type == GDK_TOUCH_END) {
+        g_signal_emit(row, signals[SIGNAL_SEALED], 0);
+        studio_param_row_show(row, row->value); // the range goes by the new value now
+    }
+    return FALSE;
 }
 
 static void on_toggle(GtkSwitch *toggle, GParamSpec *spec, StudioParamRow *row) {
@@ -174,11 +178,10 @@ static void make_scale(StudioParamRow *row) {
     gtk_widget_add_css_class(row->scale, "row-scale");
     g_signal_connect(row->scale, "change-value", G_CALLBACK(on_slide), row);
     // The scale has the pointer for itself; this one only watches for its release.
-    GtkGesture *watch = gtk_gesture_click_new();
-    gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(watch), GTK_PHASE_CAPTURE);
-    g_signal_connect(watch, "end", G_CALLBACK(on_slide_end), row);
-    g_signal_connect(watch, "cancel", G_CALLBACK(on_slide_end), row);
-    gtk_widget_add_controller(row->scale, GTK_EVENT_CONTROLLER(watch));
+    GtkEventController *watch = gtk_event_controller_legacy_new();
+    gtk_event_controller_set_propagation_phase(watch, GTK_PHASE_CAPTURE);
+    g_signal_connect(watch, "event", G_CALLBACK(on_scale_event), row);
+    gtk_widget_add_controller(row->scale, watch);
     gtk_box_append(GTK_BOX(row), row->scale);
 }
 

@@ -1,5 +1,29 @@
 #include "studio/picture.h"
 
+#include "frond/image.h"
+
+// A PNG without transparency: corners of windows become black.
+static gboolean save_texture(GdkTexture *texture, const char *path) {
+    uint32_t width = (uint32_t)gdk_texture_get_width(texture);
+    uint32_t height = (uint32_t)gdk_texture_get_height(texture);
+    uint32_t *pixels = g_new(uint32_t, (gsize)width * height);
+    gdk_texture_download(texture, (guchar *)pixels, width * sizeof *pixels);
+    FrImage *image = fr_image_new(width, height, 3);
+    for (size_t i = 0; i < (size_t)width * height; i++) {
+        image->pixels[3 * i] = (uint8_t)(pixels[i] >> 16);
+        image->pixels[3 * i + 1] = (uint8_t)(pixels[i] >> 8);
+        image->pixels[3 * i + 2] = (uint8_t)pixels[i];
+    }
+    GBytes *png = fr_image_to_png(image);
+    gsize size;
+    const void *data = g_bytes_get_data(png, &size);
+    gboolean is_saved = g_file_set_contents(path, data, (gssize)size, NULL);
+    g_bytes_unref(png);
+    fr_image_unref(image);
+    g_free(pixels);
+    return is_saved;
+}
+
 gboolean studio_picture_save(GtkWidget *widget, const char *path) {
     GtkNative *native = gtk_widget_get_native(widget);
     GskRenderer *renderer = native == NULL ? NULL : gtk_native_get_renderer(native);
@@ -15,7 +39,7 @@ gboolean studio_picture_save(GtkWidget *widget, const char *path) {
     if (node != NULL) {
         graphene_rect_t bounds = GRAPHENE_RECT_INIT(0, 0, (float)width, (float)height);
         GdkTexture *texture = gsk_renderer_render_texture(renderer, node, &bounds);
-        is_saved = gdk_texture_save_to_png(texture, path);
+        is_saved = save_texture(texture, path);
         g_object_unref(texture);
         gsk_render_node_unref(node);
     }

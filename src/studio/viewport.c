@@ -290,6 +290,9 @@ void studio_viewport_take(StudioViewport *viewport, const StudioView *view, bool
     if (!viewport->is_framed && max[0] >= min[0]) {
         viewport->is_framed = true;
         studio_viewport_frame_all(viewport);
+        if (view->scene->views->len > 0) {
+            studio_viewport_see(viewport, g_ptr_array_index(view->scene->views, 0));
+        }
     }
     wake(viewport);
 }
@@ -332,6 +335,13 @@ void studio_viewport_frame_all(StudioViewport *viewport) {
         studio_store_bounds(studio_renderer_store(viewport->renderer), min, max);
         studio_viewport_frame(viewport, min, max);
     }
+}
+
+void studio_viewport_see(StudioViewport *viewport, const FrViewParams *view) {
+    double min[3], max[3];
+    studio_store_bounds(studio_renderer_store(viewport->renderer), min, max);
+    studio_camera_see(&viewport->camera, view, min, max, aspect_of(viewport));
+    studio_viewport_update(viewport);
 }
 
 void studio_viewport_move(StudioViewport *viewport, double azimuth, double elevation, double zoom) {

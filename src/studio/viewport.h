@@ -31,6 +31,8 @@ StudioCamera *studio_viewport_camera(StudioViewport *viewport);
 void studio_viewport_frame_all(StudioViewport *viewport);
 /// Shows a box.
 void studio_viewport_frame(StudioViewport *viewport, const double min[3], const double max[3]);
+/// Looks as a view of the document does.
+void studio_viewport_see(StudioViewport *viewport, const FrViewParams *view);
 /// Goes by the given part of its height or by angles, as the pointer does.
 void studio_viewport_move(StudioViewport *viewport, double azimuth, double elevation, double zoom);
 void studio_viewport_highlight(StudioViewport *viewport, const float (*points)[3], uint32_t count);

@@ -230,7 +230,14 @@ static void do_roll(GSimpleAction *action, GVariant *parameter, gpointer data) {
     }
 }
 
-// `place.attribute=value`: for tests and scripts.
+// An element by its place, or the first that is called so; FR_NONE.
+static uint32_t find_element(StudioWindow *window, const char *name) {
+    const FrContents *contents = studio_document_contents(window->document);
+    uint32_t element = studio_place_find(contents, name);
+    return element != FR_NONE ? element : fr_contents_find(contents, 0, name);
+}
+
+// `element.attribute=value`: for tests and scripts.
 static void do_set(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
     StudioWindow *window = data;
@@ -238,8 +245,7 @@ static void do_set(GSimpleAction *action, GVariant *parameter, gpointer data) {
     char *dot = parts[0] == NULL ? NULL : strrchr(parts[0], '.');
     if (dot != NULL && parts[1] != NULL) {
         *dot = '\0';
-        uint32_t element =
-            fr_contents_find(studio_document_contents(window->document), 0, parts[0]);
+        uint32_t element = find_element(window, parts[0]);
         if (element != FR_NONE) {
             studio_set(window->document, element, dot + 1, parts[1], false);
         }
@@ -250,8 +256,7 @@ static void do_set(GSimpleAction *action, GVariant *parameter, gpointer data) {
 static void do_select(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
     StudioWindow *window = data;
-    studio_window_select(window, fr_contents_find(studio_document_contents(window->document), 0,
-                                                  g_variant_get_string(parameter, NULL)));
+    studio_window_select(window, find_element(window, g_variant_get_string(parameter, NULL)));
 }
 
 // ---- the view ----------------------------------------------------------------------------------
@@ -306,6 +311,11 @@ static void do_export(GSimpleAction *action, GVariant *parameter, gpointer data)
     studio_window_export(data);
 }
 
+static void do_export_to(GSimpleAction *action, GVariant *parameter, gpointer data) {
+    (void)action;
+    studio_window_export_to(data, g_variant_get_string(parameter, NULL));
+}
+
 static void do_preferences(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
     (void)parameter;
@@ -353,6 +363,7 @@ void studio_window_add_actions(StudioWindow *window) {
         {.name = "save-as", .activate = do_save_as},
         {.name = "save-to", .activate = do_save_as, .parameter_type = "s"},
         {.name = "export", .activate = do_export},
+        {.name = "export-to", .activate = do_export_to, .parameter_type = "s"},
         {.name = "screenshot", .activate = do_screenshot},
         {.name = "undo", .activate = do_undo},
         {.name = "redo", .activate = do_redo},
@@ -391,9 +402,9 @@ static void set_tip(GtkWidget *button, const char *verb, const char *step) {
 }
 
 void studio_window_update_actions(StudioWindow *window) {
-    static const char *const always[] = {"save-as", "save-to", "export", "screenshot", "add",
-                                         "roll",    "set",     "select", "frame",      "zoom",
-                                         "mode",    "grid",    "shadow", "occlusion",  "side"};
+    static const char *const always[] = {
+        "save-as", "save-to", "export", "export-to", "screenshot", "add",    "roll",      "set",
+        "select",  "frame",   "zoom",   "mode",      "grid",       "shadow", "occlusion", "side"};
     StudioDocument *document = window->document;
     bool is_there = document != NULL;
     for (size_t i = 0; i < G_N_ELEMENTS(always); i++) {

@@ -126,7 +126,7 @@ void studio_window_request(StudioWindow *window) {
 bool studio_window_is_idle(StudioWindow *window) {
     double fraction, seconds;
     return window->document == NULL ||
-           (window->shown == window->asked &&
+           (window->shown == window->asked && window->exports == 0 &&
             !studio_builder_is_busy(window->builder, &fraction, &seconds) &&
             !studio_builder_is_painting(window->builder) &&
             g_atomic_int_get(&window->is_woken) == 0 && studio_viewport_is_done(window->viewport));

@@ -30,6 +30,7 @@ struct _StudioWindow {
     double asked_time;
     guint autosave, progress; ///< timers
     gint is_woken;            ///< atomic: the main thread is on its way
+    guint exports;            ///< that run
     bool is_closing;          ///< the user has said what shall become of changes
 
     GtkWidget *stack; ///< "welcome", "document"
@@ -88,6 +89,8 @@ GtkWidget *studio_welcome_new(StudioWindow *window);
 // export.c
 
 void studio_window_export(StudioWindow *window);
+/// Writes a model without asking, in the format of the file's ending.
+void studio_window_export_to(StudioWindow *window, const char *path);
 
 // dialogs.c
 

@@ -115,6 +115,19 @@ static void test_components(void) {
     studio_document_free(document);
 }
 
+static void test_material(void) {
+    static const char text[] =
+        "<frond version='1'><material id='bark' texture='bark-smooth'/>"
+        "<material id='blade' texture='leaf'/><plant id='p'><pgraph><camera id='r'/></pgraph>"
+        "</plant></frond>";
+    StudioDocument *document = studio_document_new(text, strlen(text), "m", NULL);
+    studio_add_component(document, first_plant(document), FR_COMPONENT_LEAF, "r", NULL);
+    g_assert_nonnull(strstr(text_of(document), "<leaf id=\"leaf\" material=\"blade\"/>"));
+    studio_add_component(document, first_plant(document), FR_COMPONENT_TREE, "r", NULL);
+    g_assert_nonnull(strstr(text_of(document), "<tree id=\"tree\" material=\"bark\"/>"));
+    studio_document_free(document);
+}
+
 static void test_links(void) {
     StudioDocument *document = small_document();
     uint32_t plant = first_plant(document);
@@ -297,6 +310,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/document/a drag back to its start is none", test_drag_back);
     g_test_add_func("/studio/document/a default is not written", test_default);
     g_test_add_func("/studio/document/components come with their links", test_components);
+    g_test_add_func("/studio/document/a new component has a material that suits", test_material);
     g_test_add_func("/studio/document/links are refused with a reason", test_links);
     g_test_add_func("/studio/document/a new name reaches links and edits", test_rename);
     g_test_add_func("/studio/document/edits by hand are gathered", test_hand);

@@ -29,6 +29,29 @@ void studio_camera_frame(StudioCamera *camera, const double min[3], const double
     camera->distance = CLAMP(1.02 * radius / sin(narrow), nearest, farthest);
 }
 
+void studio_camera_see(StudioCamera *camera, const FrViewParams *view, const double min[3],
+                       const double max[3], double aspect) {
+    vec3s away = glms_vec3_sub(view->eye, view->target);
+    double distance = (double)glms_vec3_norm(away);
+    camera->field_of_view = view->field_of_view;
+    if (distance > 0) { // in a room, say
+        for (int i = 0; i < 3; i++) {
+            camera->target[i] = (double)view->target.raw[i];
+        }
+        camera->distance = CLAMP(distance, nearest, farthest);
+        camera->azimuth = atan2((double)away.x, (double)-away.y);
+        camera->elevation = CLAMP(asin((double)away.z / distance), -highest, highest);
+        return;
+    }
+    studio_camera_frame(camera, min, max, aspect);
+    camera->distance = CLAMP(camera->distance / view->zoom, nearest, farthest);
+    camera->azimuth = view->azimuth;
+    camera->elevation = CLAMP(view->elevation, -highest, highest);
+    for (int i = 0; i < 3; i++) {
+        camera->target[i] += (double)view->look_at.raw[i];
+    }
+}
+
 void studio_camera_orbit(StudioCamera *camera, double azimuth, double elevation) {
     camera->azimuth = remainder(camera->azimuth + azimuth, 2 * G_PI);
     camera->elevation = CLAMP(camera->elevation + elevation, -highest, highest);
@@ -86,9 +109,8 @@ mat4s studio_camera_view(const StudioCamera *camera) {
 
 mat4s studio_camera_projection(const StudioCamera *camera, double aspect, double radius) {
     double far = camera->distance + 2 * radius + 4 * camera->distance;
-    double near = fmax(camera->distance - radius, 0.01 * camera->distance);
-    return glms_perspective((float)camera->field_of_view, (float)aspect, (float)(0.5 * near),
-                            (float)far);
+    double near = 0.02 * camera->distance; // the floor begins at the feet
+    return glms_perspective((float)camera->field_of_view, (float)aspect, (float)near, (float)far);
 }
 
 void studio_camera_ray(const StudioCamera *camera, double aspect, double x, double y,

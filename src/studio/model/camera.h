@@ -2,7 +2,7 @@
 /// Where the view is seen from: a point that is looked at, a distance and two angles. z is up.
 #pragma once
 
-#include "frond/vector.h"
+#include "frond/document.h"
 
 #include <cglm/struct.h>
 
@@ -18,6 +18,9 @@ StudioCamera studio_camera_default(void);
 /// Shows all of a box at a width over height of `aspect`; a box without size gets a metre.
 void studio_camera_frame(StudioCamera *camera, const double min[3], const double max[3],
                          double aspect);
+/// Looks as a view of a document does, which frames such a box or has an eye of its own.
+void studio_camera_see(StudioCamera *camera, const FrViewParams *view, const double min[3],
+                       const double max[3], double aspect);
 /// Turns about the target; the elevation stays short of the poles.
 void studio_camera_orbit(StudioCamera *camera, double azimuth, double elevation);
 /// Moves target and camera by parts of the picture's height.

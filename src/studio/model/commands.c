@@ -151,6 +151,23 @@ static void insert_component(const StudioDocument *document, uint32_t graph, con
     }
 }
 
+// A material of the document that suits: of a leaf's picture for leaves, of a bark's for stems.
+static char *suiting_material(const FrContents *contents, FrComponentKind kind) {
+    bool is_stem = kind == FR_COMPONENT_TREE || kind == FR_COMPONENT_HORN;
+    const char *wanted = is_stem ? "bark" : kind == FR_COMPONENT_LEAF ? "leaf" : NULL;
+    uint32_t material = fr_contents_child(contents, 0, "material");
+    for (; wanted != NULL && material != FR_NONE;
+         material = fr_contents_sibling(contents, material)) {
+        char *texture = fr_contents_get(contents, material, "texture");
+        bool is_it = texture != NULL && g_str_has_prefix(texture, wanted);
+        g_free(texture);
+        if (is_it) {
+            return g_strdup(fr_contents_at(contents, material)->id);
+        }
+    }
+    return NULL;
+}
+
 bool studio_add_component(StudioDocument *document, uint32_t plant, FrComponentKind kind,
                           const char *parent, char **id) {
     uint32_t graph = studio_graph_of(document, plant);
@@ -160,7 +177,12 @@ bool studio_add_component(StudioDocument *document, uint32_t plant, FrComponentK
         return false;
     }
     char *own = studio_free_id(document, plant, element);
-    char *xml = g_strdup_printf("<%s id=\"%s\"/>", element, own);
+    char *material = suiting_material(contents_of(document), kind);
+    char *dress =
+        material == NULL ? g_strdup("") : g_markup_printf_escaped(" material=\"%s\"", material);
+    char *xml = g_strdup_printf("<%s id=\"%s\"%s/>", element, own, dress);
+    g_free(dress);
+    g_free(material);
     char *link =
         on == FR_NONE
             ? g_strdup("")

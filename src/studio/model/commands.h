@@ -23,8 +23,8 @@ char *studio_free_id(const StudioDocument *document, uint32_t plant, const char 
 FrLinkKind studio_likely_link(FrComponentKind from, FrComponentKind to);
 /// Where what is linked stands, in words: "along the stem".
 const char *studio_link_words(FrLinkKind kind, FrComponentKind from);
-/// Adds a component of its kind, linked from `parent` (its id; NULL: from nothing). `*id` (may be
-/// NULL) receives its id, to be freed with g_free().
+/// Adds a component of its kind, of a material that suits if there is one, linked from `parent`
+/// (its id; NULL: from nothing). `*id` (may be NULL) receives its id, to be freed with g_free().
 bool studio_add_component(StudioDocument *document, uint32_t plant, FrComponentKind kind,
                           const char *parent, char **id);
 /// Why the two cannot be linked, in a sentence; NULL: they can.

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { COARSE_LEVEL = 4, COARSE_SIDES = 3 };
+enum { COARSE_LEVEL = 4, COARSE_SIDES = 8, COARSE_NODES = 10000 };
 
 // ---- leaves ------------------------------------------------------------------------------------
 
@@ -246,17 +246,52 @@ StudioView *studio_view_new(const FrRebuild *rebuild, const FrContext *context) 
     return view;
 }
 
+// The plant without organs and thin axes: the thickest are kept, of at most COARSE_NODES
+// internodes. It shares all columns but `flags`.
+static FrPlant thinned(const FrPlant *plant, uint16_t *flags) {
+    FrPlant thin = *plant;
+    uint32_t *counts = g_new0(uint32_t, plant->axes.count + 1);
+    float radius = 0, step = 0;
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        counts[plant->nodes.axis[i]]++;
+    }
+    for (uint32_t i = 0; i < plant->axes.count; i++) {
+        step = fmaxf(step, plant->axes.base_radius[i]);
+    }
+    // The least radius that leaves few enough, to a 4096th of the greatest.
+    for (step /= 2; step > 0 && radius + step > radius * 1.0002f; step /= 2) {
+        uint64_t kept = 0;
+        for (uint32_t i = 0; i < plant->axes.count; i++) {
+            kept += plant->axes.base_radius[i] >= radius + step ? counts[i] : 0;
+        }
+        radius += kept > COARSE_NODES ? step : 0;
+    }
+    for (uint32_t i = 0; i < plant->axes.count; i++) {
+        bool is_thin = plant->nodes.count > COARSE_NODES && plant->axes.base_radius[i] <= radius;
+        flags[i] = (uint16_t)(plant->axes.flags[i] | (is_thin ? FR_HIDDEN : 0));
+    }
+    g_free(counts);
+    thin.axes.flags = flags;
+    thin.organs.count = 0;
+    return thin;
+}
+
 void studio_view_add_coarse(StudioView *view, const FrContext *context) {
     FrSkinParams params = fr_skin_default();
     params.lod = COARSE_LEVEL;
-    params.min_sides = COARSE_SIDES;
+    params.min_sides = 3;
+    params.max_sides = COARSE_SIDES;
+    params.side_length = 0.1;
+    params.bend = 20 * G_PI / 180;
     params.foliage = false;
     params.collar = 0;
     for (guint i = 0; i < view->plants->len; i++) {
         StudioPlant *plant = g_ptr_array_index(view->plants, i);
-        FrStatus status =
-            fr_skin_plant(plant->plant, &params, FR_UP_Z, context, &plant->coarse_wood);
+        uint16_t *flags = g_new(uint16_t, plant->plant->axes.count + 1);
+        FrPlant thin = thinned(plant->plant, flags);
+        FrStatus status = fr_skin_plant(&thin, &params, FR_UP_Z, context, &plant->coarse_wood);
         plant->coarse_wood = status == FR_OK ? plant->coarse_wood : NULL;
+        g_free(flags);
     }
 }
 

@@ -447,15 +447,31 @@ static uint64_t coarse_leaf_triangles(const StudioStore *store) {
     return sum;
 }
 
+static const GArray *coarse_wood_of(const Plant *plant) {
+    return plant->coarse->len > 0 ? plant->coarse : plant->wood;
+}
+
+static uint64_t coarse_wood_triangles(const StudioStore *store) {
+    uint64_t sum = 0;
+    for (guint i = 0; i < store->stands->len; i++) {
+        const GArray *parts =
+            coarse_wood_of(plant_of(store, &g_array_index(store->stands, Stand, i)));
+        for (guint p = 0; p < parts->len; p++) {
+            sum += g_array_index(parts, Part, p).index_count / 3;
+        }
+    }
+    return sum;
+}
+
 GArray *studio_store_list_coarse(const StudioStore *store, uint64_t budget) {
     GArray *list = new_list();
     uint64_t leaves = coarse_leaf_triangles(store);
-    double part = leaves == 0 ? 1 : fmin(1, 0.8 * (double)budget / (double)leaves);
+    double left = fmax(0.4 * (double)budget, (double)budget - (double)coarse_wood_triangles(store));
+    double part = leaves == 0 ? 1 : fmin(1, left / (double)leaves);
     for (guint i = 0; i < store->stands->len; i++) {
         const Stand *stand = &g_array_index(store->stands, Stand, i);
         const Plant *plant = plant_of(store, stand);
-        list_parts(store, stand, plant, plant->coarse->len > 0 ? plant->coarse : plant->wood,
-                   UINT32_MAX, list);
+        list_parts(store, stand, plant, coarse_wood_of(plant), UINT32_MAX, list);
         list_parts(store, stand, plant, plant->foliage, UINT32_MAX, list);
         list_leaves(store, stand, plant, true, part, UINT32_MAX, list);
     }

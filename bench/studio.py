@@ -1,0 +1,66 @@
+"""From an edit to its picture in the studio, on a display without a screen.
+
+Prints, for the chestnut with its 207 000 leaves, how long reading, building, viewing, sending to the
+graphics card and drawing take after edits of each kind, and how many pictures a second are drawn
+while the view turns. Wall-clock, the median of five edits; say how busy the machine was.
+"""
+
+import os
+import pathlib
+import statistics
+import sys
+import tempfile
+
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(SOURCE / "tests" / "studio"))
+os.environ.setdefault("FROND_STUDIO", str(SOURCE / "build/src/studio/frond-studio"))
+
+import studio_driver  # noqa: E402, the path is set above
+
+EDITS = {
+    "leaf width": ("frond/plant:chestnut/pgraph/leaf:leaf.width", ["0.05", "0.052", "0.054", "0.056", "0.058"]),
+    "leaf colour": ("frond/material:leaf.colour", ["#507a2c", "#517a2c", "#527a2c", "#537a2c", "#547a2c"]),
+    "trunk length": ("trunk.length", ["10.6", "10.7", "10.8", "10.9", "11"]),
+    "seed": ("frond/plant:chestnut.seed", ["12", "13", "14", "15", "16"]),
+}
+PARTS = ["read", "build", "view", "upload", "coarse"]
+FRAMES = 60
+
+
+def measure(studio, path, values):
+    rows = []
+    for value in values:
+        studio.ask(f"do set::{path}={value}")
+        studio.wait()
+        state = studio.state()
+        rows.append([1000 * state[part] for part in PARTS])
+    return [statistics.median(column) for column in zip(*rows)]
+
+
+def main():
+    reason = studio_driver.why_not()
+    if reason is not None:
+        sys.exit(f"bench/studio.py: {reason}")
+    display = studio_driver.Display()
+    with tempfile.TemporaryDirectory() as home:
+        studio = studio_driver.Studio(display, home)
+        studio.ask("size 1440 900")
+        studio.ask(f"open {SOURCE / 'examples/chestnut.frond'}")
+        studio.wait()
+        print(f"load {os.getloadavg()[0]:.1f}; milliseconds:")
+        print(f"{'edit':14}" + "".join(f"{part:>9}" for part in PARTS + ["all"]))
+        for name, (path, values) in EDITS.items():
+            row = measure(studio, path, values)
+            print(f"{name:14}" + "".join(f"{value:9.1f}" for value in row + [sum(row)]))
+        studio.ask("orbit 10")
+        seconds = float(studio.ask(f"orbit {FRAMES}"))
+        state = studio.state()
+        print(f"turning: {FRAMES / seconds:.1f} pictures a second of "
+              f"{state['coarse_triangles']} triangles; at rest {1000 * state['fine']:.0f} ms for "
+              f"{state['triangles']}")
+        studio.quit()
+    display.close()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,112 @@
+"""Drives frond-studio on a display without a screen: commands to its standard input, and a pointer."""
+
+import json
+import os
+import shutil
+import subprocess
+import time
+
+STUDIO = os.environ.get("FROND_STUDIO", "build/src/studio/frond-studio")
+
+
+def why_not():
+    """Why the studio cannot be driven here, or None."""
+    if not os.path.exists(STUDIO):
+        return "frond-studio is not built"
+    for tool in ("Xvfb", "xdotool"):
+        if shutil.which(tool) is None:
+            return f"{tool} is not installed"
+    return None
+
+
+class Display:
+    """An X server of its own, on a number that it finds free."""
+
+    def __init__(self, width=1600, height=1000):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24",
+             "-nolisten", "tcp"],
+            pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as numbers:
+            self.name = ":" + numbers.readline().strip()
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+class Studio:
+    """The program, with settings and recovery in a folder of its own."""
+
+    def __init__(self, display, home, *arguments):
+        self.environment = dict(
+            os.environ, DISPLAY=display.name, GDK_BACKEND="x11", GTK_A11Y="none",
+            GSETTINGS_BACKEND="memory", LIBGL_ALWAYS_SOFTWARE="1", LC_ALL="C.UTF-8",
+            GSK_RENDERER="cairo", G_DEBUG="fatal-criticals", FROND_STUDIO_ALONE="yes",
+            XDG_CONFIG_HOME=os.path.join(home, "config"),
+            XDG_STATE_HOME=os.path.join(home, "state"),
+            XDG_DATA_HOME=os.path.join(home, "data"))
+        self.program = subprocess.Popen(
+            [STUDIO, "--drive", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE, text=True, env=self.environment)
+
+    def ask(self, command):
+        """Sends a command and returns its answer; an error is an exception."""
+        self.program.stdin.write(command + "\n")
+        self.program.stdin.flush()
+        answer = self.program.stdout.readline().strip()
+        if answer == "" or answer.startswith("error"):
+            raise AssertionError(f"'{command}' was answered with '{answer}'{self.last_words()}")
+        return answer
+
+    def last_words(self):
+        if self.program.poll() is None:
+            return ""
+        return "; it ended with " + str(self.program.returncode) + ": " + \
+            self.program.stderr.read()[-2000:]
+
+    def wait(self):
+        self.ask("wait")
+
+    def state(self):
+        return json.loads(self.ask("state"))
+
+    def where(self, name):
+        return [float(number) for number in self.ask("where " + name).split()]
+
+    def middle(self, name, across=0.5, down=0.5):
+        x, y, width, height = self.where(name)
+        return x + across * width, y + down * height
+
+    def pointer(self, *words):
+        subprocess.run(["xdotool", *[str(word) for word in words]], check=True,
+                       env=self.environment)
+
+    def go(self, point):
+        self.pointer("mousemove", round(point[0]), round(point[1]))
+
+    def click(self, point):
+        self.go(point)
+        self.pointer("click", 1)
+        time.sleep(0.05)
+
+    def drag(self, begin, end, button=1, steps=8):
+        """In steps: one jump may be no drag."""
+        self.go(begin)
+        self.pointer("mousedown", button)
+        for step in range(1, steps + 1):
+            self.go([a + (b - a) * step / steps for a, b in zip(begin, end)])
+            time.sleep(0.02)
+        self.pointer("mouseup", button)
+        time.sleep(0.05)
+
+    def quit(self):
+        self.ask("quit")
+        self.program.stdin.close()
+        return self.program.wait(timeout=30)
+
+    def kill(self):
+        self.program.kill()
+        self.program.wait()

@@ -1,0 +1,262 @@
+"""The studio with a person's hands: dragging, sliding, drawing, undoing, saving, on a real display."""
+
+import os
+import pathlib
+import shutil
+import sys
+import tempfile
+import traceback
+
+import studio_driver as driver
+
+SOURCE = pathlib.Path(os.environ.get("FROND_SOURCE", "."))
+PICTURES = pathlib.Path(os.environ.get("FROND_PICTURES", "build/studio-pictures"))
+
+BEGINNING = """<?xml version="1.0" encoding="UTF-8"?>
+<frond version="1">
+  <!-- a stem -->
+  <material id="green" texture="leaf" colour="#4f7a2c" size="64"/>
+  <curve id="thick" points="0,1 0.5,0.6 1,0.2"/>
+  <plant id="flower" seed="1">
+    <pgraph>
+      <camera id="root"/>
+      <horn id="stem" length="0.6" radius="0.01"/>
+      <link from="root" to="stem"/>
+    </pgraph>
+  </plant>
+</frond>
+"""
+
+
+class Run:
+    """One studio for all tests, as a person has one."""
+
+    def __init__(self):
+        self.home = tempfile.mkdtemp(prefix="frond-studio-")
+        self.display = driver.Display()
+        self.studio = driver.Studio(self.display, self.home)
+        self.file = os.path.join(self.home, "flower.frond")
+        with open(self.file, "w", encoding="utf-8") as file:
+            file.write(BEGINNING)
+        PICTURES.mkdir(parents=True, exist_ok=True)
+
+    def close(self):
+        self.studio.kill()
+        self.display.close()
+        shutil.rmtree(self.home)
+
+    def picture(self, name):
+        self.studio.wait()
+        self.studio.ask(f"picture {PICTURES / name}.png")
+
+
+def test_examples(run):
+    """every example opens without a problem and is drawn"""
+    run.studio.ask("size 900 600")
+    for file in sorted((SOURCE / "examples").glob("*.frond")):
+        run.studio.ask(f"open {file}")
+        run.picture("example-" + file.stem)
+        state = run.studio.state()
+        assert state["problems"] == 0, f"{file.name}: {state}"
+        assert state["triangles"] > 0, f"{file.name}: nothing is drawn"
+        assert state["saved"], f"{file.name} was changed by opening it"
+
+
+def test_welcome(run):
+    """a new window welcomes with presets"""
+    run.studio.ask("size 1440 900")
+    run.picture("welcome")
+
+
+def open_flower(run):
+    run.studio.ask("size 1440 900")
+    run.studio.ask(f"open {run.file}")
+    run.studio.wait()
+    run.first = run.studio.state()["digest"]
+
+
+def test_flower(run):
+    """a flower is built by dragging components onto others"""
+    open_flower(run)
+    studio = run.studio
+    studio.drag(studio.middle("tool:phiball"), studio.middle("box:stem"))
+    studio.wait()
+    assert studio.state()["selected"].endswith("phiball:phiball"), studio.state()
+    studio.drag(studio.middle("tool:leaf"), studio.middle("box:phiball"))
+    studio.wait()
+    state = studio.state()
+    assert state["steps"] == 2 and state["leaves"] > 1, state
+    assert state["problems"] == 0, state
+    run.picture("flower-dragged")
+
+
+def test_link(run):
+    """a component dragged onto another is linked, onto itself repeated"""
+    studio = run.studio
+    before = studio.state()["steps"]
+    studio.drag(studio.middle("tool:horn"), studio.middle("tool:horn", down=-6))
+    studio.wait()
+    assert studio.state()["steps"] == before + 1, "a horn that nothing leads to"
+    studio.drag(studio.middle("box:horn"), studio.middle("box:stem"))
+    studio.wait()
+    assert studio.state()["steps"] == before + 2, studio.state()
+    studio.drag(studio.middle("box:root"), studio.middle("box:stem"))
+    studio.wait()
+    assert studio.state()["steps"] == before + 2, "nothing may lead to the camera"
+    run.picture("flower-linked")
+
+
+def test_slider(run):
+    """a slider that is dragged is one step"""
+    studio = run.studio
+    studio.ask("do select::stem")
+    studio.wait()
+    before = studio.state()
+    x, y, width, height = studio.where("length-scale")
+    share = 0.6 / 2  # of the range, 0 to 2 m
+    studio.drag([x + 8 + share * (width - 16), y + height / 2], [x + 0.8 * width, y + height / 2])
+    studio.wait()
+    after = studio.state()
+    assert after["digest"] != before["digest"], "the slider does nothing"
+    assert after["steps"] == before["steps"] + 1, after
+    run.picture("flower-slider")
+
+
+def test_curve(run):
+    """a curve is drawn by its points"""
+    studio = run.studio
+    studio.ask("do select::thick")
+    studio.wait()
+    before = studio.state()
+    studio.drag(studio.middle("points-curve", 0.5, 0.45), studio.middle("points-curve", 0.55, 0.1))
+    studio.wait()
+    assert studio.state()["steps"] == before["steps"] + 1, studio.state()
+    studio.click(studio.middle("points-curve", 0.3, 0.6))
+    studio.wait()
+    assert studio.state()["digest"] != before["digest"]
+    run.picture("flower-curve")
+
+
+def test_view(run):
+    """the view turns, zooms and picks"""
+    studio = run.studio
+    studio.drag([600, 500], [760, 540])
+    studio.go([640, 480])
+    studio.pointer("click", "--repeat", 3, 4)
+    studio.wait()
+    run.picture("flower-turned")
+    for mode in ("wireframe", "skeleton", "shaded"):
+        studio.ask(f"do mode('{mode}')")
+        run.picture("flower-" + mode)
+    studio.ask("do frame")
+    studio.wait()
+
+
+def test_mistake(run):
+    """a mistake is shown at its place and the last good plant stays"""
+    studio = run.studio
+    triangles = studio.state()["triangles"]
+    studio.ask("do set::stem.length=0.5 +")
+    studio.wait()
+    state = studio.state()
+    assert state["problems"] == 1 and state["triangles"] == triangles, state
+    studio.ask("do problem")
+    run.picture("flower-mistake")
+    assert studio.state()["selected"].endswith("horn:stem"), studio.state()
+    studio.ask("do undo")
+    studio.wait()
+    assert studio.state()["problems"] == 0
+
+
+def test_undo(run):
+    """undoing all leads back to the first byte"""
+    studio = run.studio
+    last = studio.state()
+    while studio.state()["steps"] > 0:
+        studio.ask("do undo")
+    studio.wait()
+    state = studio.state()
+    assert state["digest"] == run.first and state["saved"], state
+    for _ in range(last["steps"]):
+        studio.ask("do redo")
+    studio.wait()
+    assert studio.state()["digest"] == last["digest"]
+
+
+def test_save(run):
+    """what is saved is what is opened again"""
+    studio = run.studio
+    digest = studio.state()["digest"]
+    copy = os.path.join(run.home, "copy.frond")
+    studio.ask(f"do save-to('{copy}')")
+    assert studio.state()["saved"]
+    studio.ask(f"open {copy}")
+    studio.wait()
+    state = studio.state()
+    assert state["digest"] == digest and state["steps"] == 0, state
+
+
+def test_export(run):
+    """a model is written for another program"""
+    model = os.path.join(run.home, "flower.glb")
+    run.studio.ask(f"do export-to('{model}')")
+    run.studio.wait()
+    with open(model, "rb") as file:
+        assert file.read(4) == b"glTF"
+
+
+def test_dialogs(run):
+    """every dialog opens and closes"""
+    for action in ("export", "preferences", "shortcuts", "about"):
+        run.studio.ask("do " + action)
+        run.studio.wait()
+        run.studio.ask(f"picture-of-dialog {PICTURES / action}.png")
+        run.studio.ask("close-dialog")
+
+
+def test_killed(run):
+    """what was not saved is offered again after a crash"""
+    studio = run.studio
+    studio.ask("do set::stem.length=0.77")
+    studio.ask("keep")
+    studio.kill()
+    run.studio = driver.Studio(run.display, run.home)
+    run.picture("recovery")
+    run.studio.ask("restore")
+    run.studio.wait()
+    state = run.studio.state()
+    assert not state["saved"], state
+    run.studio.ask("do undo")
+    assert run.studio.state()["steps"] == 0
+    assert run.studio.quit() == 0
+
+
+TESTS = [test_welcome, test_examples, test_flower, test_link, test_slider, test_curve, test_view,
+         test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
+
+
+def main():
+    reason = driver.why_not()
+    if reason is not None:
+        print(f"1..0 # SKIP {reason}")
+        return
+    # A word leaves out the tests that have it in their names.
+    tests = [test for test in TESTS if not any(word in test.__name__ for word in sys.argv[1:])]
+    print(f"1..{len(tests)}", flush=True)
+    run = Run()
+    try:
+        for number, test in enumerate(tests, 1):
+            try:
+                test(run)
+                print(f"ok {number} {test.__doc__}", flush=True)
+            except Exception:  # the next ones may well work
+                print(f"not ok {number} {test.__doc__}")
+                for line in traceback.format_exc().splitlines():
+                    print("# " + line)
+                sys.stdout.flush()
+    finally:
+        run.close()
+
+
+if __name__ == "__main__":
+    main()
