@@ -25,6 +25,8 @@ typedef struct FrShadowSettings {
     double cell;      ///< width of a voxel, m
     double origin[3]; ///< lowest corner, m
     int cells[3];     ///< voxels along x, y, z, ≥ 1
+    double jitter;    ///< part of the light that voxels lack at most, by chance, below 1
+    uint64_t seed;    ///< of that chance
 } FrShadowSettings;
 
 /// What a place receives.
@@ -52,6 +54,11 @@ FR_API void fr_shadows_cast(FrShadows *shadows, const vec3s *points, size_t coun
 /// voxels is how far around it the direction is looked for. With FR_SHADOWS_SUBTRACT a point is
 /// taken to have cast a shadow on its own voxel, which is not counted.
 FR_API FrShadowSample fr_shadows_at(const FrShadows *shadows, vec3s point, double radius);
+/// The light alone.
+FR_API float fr_shadows_light(const FrShadows *shadows, vec3s point);
+/// Works out the light of all voxels, so that asking becomes some ten times as fast until the next
+/// shadow is cast. Takes as much memory again.
+FR_API void fr_shadows_settle(FrShadows *shadows, const FrContext *context);
 FR_API FrDigest fr_shadows_digest(const FrShadows *shadows);
 
 // ---- as a backend of light --------------------------------------------------------------------

@@ -14,7 +14,7 @@ enum {
     FR_VOXELS_WIDTH = 4096, ///< cells along each axis
     FR_BRICK_WIDTH = 8,
     FR_BRICK_CELLS = 512,
-    FR_WALK_CELLS = 256, ///< longest segment that fr_voxels_walk() is asked for
+    FR_WALK_CELLS = 256, ///< most cells of a segment that fr_voxels_walk() is asked for
 };
 
 /// Owners that are no branch.
@@ -26,13 +26,19 @@ typedef struct FrCell {
     int16_t at[3]; ///< 0 … FR_VOXELS_WIDTH − 1
 } FrCell;
 
+/// What is written of one cell.
+typedef struct FrVoxel {
+    uint32_t owner;
+    uint32_t claim; ///< FR_NONE: unclaimed
+} FrVoxel;
+
 /// 8³ cells. Bit y·8 + x of word z.
 typedef struct FrBrick {
     uint64_t taken[8];  ///< owned or solid
     uint64_t solid[8];  ///< an obstacle
     uint64_t ground[8]; ///< … that roots pass
-    uint32_t *owner;    ///< by z·64 + y·8 + x; NULL: no branches in here
-    uint32_t *claim;    ///< likewise; FR_NONE: unclaimed
+    uint64_t asked[8];  ///< claimed
+    FrVoxel *voxels;    ///< by fr_voxels_slot(); NULL: no branches in here
 } FrBrick;
 
 /// Bricks hang in blocks of 8³, blocks in a table of 64³.
@@ -52,8 +58,8 @@ FR_API FrBrick *fr_voxels_make(FrVoxels *voxels, FrCell cell);
 /// The same with room for owners and claims.
 FR_API FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell);
 /// Cells from the one of `from` to the one of `to`, in order, each beside the one before
-/// (Amanatides and Woo 1987). Returns how many. Both ends must be inside, and no more than
-/// FR_WALK_CELLS / 3 cells apart.
+/// (Amanatides and Woo 1987). Returns how many. Both ends must be inside, and the
+/// sum of how far they lie apart along each axis below FR_WALK_CELLS cells.
 FR_API uint32_t fr_voxels_walk(const FrVoxels *voxels, const double from[3], const double to[3],
                                FrCell *cells);
 /// Makes every cell solid that a triangle touches. Parts outside are left out.
@@ -66,6 +72,8 @@ FR_API FR_MUST_USE bool fr_voxels_fill(FrVoxels *voxels, const vec3s *positions,
                                        bool is_ground, const double end[3], uint64_t most);
 /// Makes all obstacles go, and keeps what is owned.
 FR_API void fr_voxels_clear_solid(FrVoxels *voxels);
+/// Sets the bits of a brick whose voxels have been written.
+FR_API void fr_voxels_note_owners(FrBrick *brick);
 /// Calls `visit` for every brick that has owners, in order of its place.
 FR_API void fr_voxels_each_owned(const FrVoxels *voxels,
                                  void (*visit)(void *data, FrCell first, FrBrick *brick),
@@ -94,9 +102,15 @@ static inline unsigned fr_voxels_bit(FrCell cell) {
     return ((unsigned)cell.at[1] & 7) * 8 + ((unsigned)cell.at[0] & 7);
 }
 
-/// Index of a cell within its brick.
-static inline unsigned fr_voxels_index(FrCell cell) {
-    return ((unsigned)cell.at[2] & 7) * 64 + fr_voxels_bit(cell);
+/// Where a brick keeps the voxel of a bit of a layer: the eight of a cube of 2³ fill a cache line.
+static inline unsigned fr_voxels_slot(unsigned layer, unsigned bit) {
+    unsigned cube = (layer >> 1) * 16 + (bit >> 4) * 4 + (bit >> 1 & 3);
+    return cube * 8 + (layer & 1) * 4 + (bit >> 3 & 1) * 2 + (bit & 1);
+}
+
+/// The voxel of a cell of a brick that has voxels.
+static inline FrVoxel *fr_voxels_at(const FrBrick *brick, FrCell cell) {
+    return &brick->voxels[fr_voxels_slot((unsigned)cell.at[2] & 7, fr_voxels_bit(cell))];
 }
 
 /// What stands in a cell.
@@ -109,5 +123,5 @@ static inline uint32_t fr_voxels_owner(const FrVoxels *voxels, FrCell cell) {
     if (brick->solid[layer] >> bit & 1) {
         return brick->ground[layer] >> bit & 1 ? FR_VOXEL_GROUND : FR_VOXEL_SOLID;
     }
-    return brick->owner[fr_voxels_index(cell)];
+    return fr_voxels_at(brick, cell)->owner;
 }

@@ -25,17 +25,27 @@ static vec3s gravity_pull(const FrGrowth *growth, const FrSpeciesParams *params,
     }
 }
 
-/// A unit vector across `direction`, by chance.
-static vec3s chance_across(FrKey key, uint32_t purpose, uint32_t k, vec3s direction, vec3s side) {
-    float angle = (float)(2 * G_PI * fr_random(key, purpose, k));
-    vec3s other = glms_vec3_cross(direction, side);
-    return glms_vec3_add(glms_vec3_scale(side, cosf(angle)), glms_vec3_scale(other, sinf(angle)));
+/// A vector across `direction` by chance, up to `size` long along each of two axes.
+static vec3s chance_across(FrKey key, uint32_t purpose, uint32_t k, const FrLiveBud *bud,
+                           float size) {
+    uint64_t bits = fr_random_bits(key, purpose, k);
+    float a = (float)(int32_t)(bits >> 32) * 0x1p-31f, b = (float)(int32_t)bits * 0x1p-31f;
+    vec3s other = glms_vec3_cross(bud->direction, bud->side);
+    return glms_vec3_add(glms_vec3_scale(bud->side, a * size), glms_vec3_scale(other, b * size));
 }
 
-/// Not further from `from` than `limit`.
-static vec3s limited(vec3s from, vec3s to, double limit) {
+/// Nearly normal, of deviation 1 and within ±3: the sum of three even draws.
+static float chance_normal(FrKey key, uint32_t purpose, uint32_t k) {
+    uint64_t bits = fr_random_bits(key, purpose, k);
+    int64_t sum = (int64_t)(bits & 0x1fffff) + (int64_t)(bits >> 21 & 0x1fffff) +
+                  (int64_t)(bits >> 42 & 0x1fffff);
+    return (float)(2 * sum - 3 * 0x1fffff) / (float)0x1fffff;
+}
+
+/// Not further from `from` than the species allows.
+static vec3s limited(const FrReadySpecies *species, vec3s from, vec3s to) {
     float cosine = glms_vec3_dot(from, to);
-    if (limit >= G_PI || cosine >= (float)cos(limit)) {
+    if (cosine >= species->turn_cosine) {
         return to;
     }
     vec3s across = glms_vec3_sub(to, glms_vec3_scale(from, cosine));
@@ -43,8 +53,8 @@ static vec3s limited(vec3s from, vec3s to, double limit) {
     if (length < 1e-6f) {
         return from;
     }
-    return glms_vec3_add(glms_vec3_scale(from, (float)cos(limit)),
-                         glms_vec3_scale(across, (float)sin(limit) / length));
+    return glms_vec3_add(glms_vec3_scale(from, species->turn_cosine),
+                         glms_vec3_scale(across, species->turn_sine / length));
 }
 
 vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud,
@@ -57,25 +67,20 @@ vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, con
     sum = glms_vec3_add(sum, glms_vec3_scale(bud->brightest, (float)params->phototropism));
     sum = glms_vec3_add(sum, gravity_pull(growth, params, order, axis, bud->direction));
     sum = glms_vec3_add(sum, glms_vec3_scale(bud->attraction, (float)params->attraction));
-    if (params->wander > 0) {
-        double turn = fr_random_normal(bud->key, FR_CHANCE_TURN, axis->internodes) * params->wander;
-        vec3s across =
-            chance_across(bud->key, FR_CHANCE_ROLL, axis->internodes, bud->direction, bud->side);
-        sum = glms_vec3_add(sum, glms_vec3_scale(across, (float)tan(CLAMP(turn, -1.2, 1.2))));
+    if (species->wander > 0) {
+        sum = glms_vec3_add(
+            sum, chance_across(bud->key, FR_CHANCE_TURN, axis->internodes, bud, species->wander));
     }
     if (trial > 0) { // Greene 1989: others around the wanted one
-        double angle = params->trial_angle *
-                       (0.5 + fr_random(bud->key, FR_CHANCE_TRIAL, axis->internodes * 64 + trial));
-        vec3s across = chance_across(bud->key, FR_CHANCE_TRIAL, axis->internodes * 64 + 32 + trial,
-                                     bud->direction, bud->side);
-        float size = glms_vec3_norm(sum);
-        sum = glms_vec3_add(sum, glms_vec3_scale(across, size * (float)tan(MIN(angle, 1.4))));
+        float size = glms_vec3_norm(sum) * species->trial;
+        sum = glms_vec3_add(sum, chance_across(bud->key, FR_CHANCE_TRIAL,
+                                               axis->internodes * 64 + trial, bud, size));
     }
     float length = glms_vec3_norm(sum);
     if (length < 1e-4f) {
         return bud->direction;
     }
-    return limited(bud->direction, glms_vec3_scale(sum, 1 / length), params->turn_limit);
+    return limited(species, bud->direction, glms_vec3_scale(sum, 1 / length));
 }
 
 void fr_growth_turn(FrLiveBud *bud, vec3s direction, float twist) {
@@ -94,19 +99,21 @@ void fr_growth_turn(FrLiveBud *bud, vec3s direction, float twist) {
                                            glms_vec3_scale(other, sinf(twist)));
 }
 
+double fr_growth_longest(const FrSpeciesParams *params) {
+    return params->step * MAX(params->max_length, 2) * 2;
+}
+
 double fr_growth_length(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud) {
     const FrReadySpecies *species = fr_species_of(growth, plant);
     const FrSpeciesParams *params = &species->params;
     const FrGrownAxis *axis = &plant->axes[bud->axis];
     double search = 1 + params->search * (1 - 2 * (double)bud->light);
     double length = params->step * CLAMP(search, params->min_length, params->max_length);
-    length *= pow(params->step_ratio, axis->order) * fr_order_of(species, bud->row)->length;
-    double control = params->apical_control;
-    if (control > 1) {
-        length *= pow(control, -(double)axis->order);
-    } else if (control < 1) {
-        length *= pow(control, (double)plant->max_order - (double)axis->order);
+    length *= (double)species->shorter[axis->order] * fr_order_of(species, bud->row)->length;
+    if (params->apical_control < 1) {
+        length *= pow(params->apical_control, (double)plant->max_order - (double)axis->order);
     }
-    double noise = fr_random_normal(bud->key, FR_CHANCE_LENGTH, axis->internodes);
-    return length * CLAMP(1 + params->length_noise * noise, 0.4, 2);
+    double noise = (double)chance_normal(bud->key, FR_CHANCE_LENGTH, axis->internodes);
+    length *= CLAMP(1 + params->length_noise * noise, 0.4, 2);
+    return MIN(length, fr_growth_longest(params));
 }

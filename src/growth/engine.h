@@ -83,6 +83,7 @@ typedef struct FrGrownPlant {
     uint32_t bud_count, bud_capacity;
     uint8_t max_order;                          ///< of its axes
     bool is_left_out;                           ///< its seed has no place to stand
+    uint32_t first_proposal, proposal_count;    ///< in this round
     uint32_t born, shed, collisions, contested; ///< in this step
 } FrGrownPlant;
 
@@ -91,6 +92,11 @@ typedef struct FrReadySpecies {
     FrSpeciesParams params; ///< own copy
     FrOrderParams orders[FR_MAX_ORDERS];
     uint32_t order_count; ///< ≥ 1
+    // What every bud would work out anew.
+    float cosine[FR_MAX_ORDERS], sine[FR_MAX_ORDERS]; ///< of the orders' angles
+    float shorter[256];                               ///< lengths by botanical order
+    float wander, trial;                              ///< tangents of the angles
+    float turn_cosine, turn_sine;                     ///< of the limit
     FrMaterial *bark, *leaf;
     const FrDistance *envelope;
     char *name;
@@ -129,6 +135,7 @@ typedef struct FrScratch {
 /// Whose number an owner of voxels is.
 typedef struct FrOwner {
     uint32_t plant, axis;
+    uint32_t bearer; ///< of the axis
 } FrOwner;
 
 typedef struct FrProposal FrProposal;
@@ -153,8 +160,10 @@ struct FrGrowth {
     // Memory of a step, kept from step to step.
     FrProposal *proposals;
     uint32_t *by_rank; ///< proposals in the order of their keys
-    uint32_t *open;
+    uint32_t *other_rank, *open;
     uint64_t *sort_keys;
+    FrCell *cells;        ///< of each proposal's segment
+    uint32_t cell_stride; ///< room for the longest
     uint32_t proposal_capacity;
     FrLiveBudAt *live; ///< all live buds, the growing ones first
     uint32_t live_capacity;
@@ -235,6 +244,8 @@ vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, con
                           uint32_t trial);
 /// Turns a bud to a unit direction, and about itself.
 void fr_growth_turn(FrLiveBud *bud, vec3s direction, float twist);
+/// Longer than this no internode becomes, m.
+double fr_growth_longest(const FrSpeciesParams *params);
 /// Length of the next internode, m.
 double fr_growth_length(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud);
 /// Adds the buds of a node that growing bud `index` has just made.

@@ -10,6 +10,11 @@ static vec3s up_of(const FrGrowthParams *params) {
     return glms_vec3_norm(up) > 0 ? glms_vec3_normalize(up) : (vec3s){{0, 0, 1}};
 }
 
+/// Cells that the longest internode of a species may cross.
+static double cells_crossed(const FrGrowthParams *params, const FrSpeciesParams *species) {
+    return sqrt(3) * fr_growth_longest(species) / params->cell + 4;
+}
+
 static FrStatus check_setup(const FrGrowthSetup *setup, const FrContext *context) {
     const FrGrowthParams *params = &setup->params;
     for (int axis = 0; axis < 3; axis++) {
@@ -21,14 +26,32 @@ static FrStatus check_setup(const FrGrowthSetup *setup, const FrContext *context
             return FR_ERR_DOCUMENT;
         }
     }
+    for (uint32_t i = 0; i < setup->species_count; i++) {
+        const FrSpeciesParams *species = &setup->species[i].params;
+        if (species->collide && cells_crossed(params, species) > FR_WALK_CELLS) {
+            fr_diags_add(context->diags, FR_ERROR, "cell-step", (FrSpan){0},
+                         "internodes of '%s' may become %g m long, which is too much for cells of "
+                         "%g m; make `cell` larger or `collide` no",
+                         setup->species[i].name == NULL ? "?" : setup->species[i].name,
+                         fr_growth_longest(species), params->cell);
+            return FR_ERR_DOCUMENT;
+        }
+    }
     return FR_OK;
 }
 
 static void take_species(FrGrowth *growth, const FrGrowthSetup *setup) {
     growth->species_count = setup->species_count;
+    growth->cell_stride = 1;
+    growth->proposal_capacity = 0;
     growth->species = g_new(FrReadySpecies, setup->species_count);
     for (uint32_t i = 0; i < setup->species_count; i++) {
         growth->species[i] = fr_species_make_ready(&setup->species[i]);
+        const FrSpeciesParams *params = &growth->species[i].params;
+        if (params->collide) {
+            growth->cell_stride =
+                MAX(growth->cell_stride, (uint32_t)cells_crossed(&setup->params, params));
+        }
     }
 }
 
@@ -147,7 +170,9 @@ void fr_growth_free(FrGrowth *growth) {
     g_free(growth->proposals);
     g_free(growth->by_rank);
     g_free(growth->open);
+    g_free(growth->other_rank);
     g_free(growth->sort_keys);
+    g_free(growth->cells);
     g_free(growth->live);
     for (int i = 0; i < growth->scratch_count; i++) {
         g_free(growth->scratch[i].memory);

@@ -44,7 +44,7 @@ static void put_brick(void *data, FrCell first, FrBrick *brick) {
     GByteArray *out = data;
     uint32_t count = 0;
     for (uint32_t i = 0; i < FR_BRICK_CELLS; i++) {
-        count += brick->owner[i] != FR_VOXEL_FREE;
+        count += brick->voxels[i].owner != FR_VOXEL_FREE;
     }
     if (count == 0) {
         return;
@@ -52,9 +52,9 @@ static void put_brick(void *data, FrCell first, FrBrick *brick) {
     put(out, &first, sizeof first);
     put(out, &(uint16_t){(uint16_t)count}, sizeof(uint16_t));
     for (uint32_t i = 0; i < FR_BRICK_CELLS; i++) {
-        if (brick->owner[i] != FR_VOXEL_FREE) {
+        if (brick->voxels[i].owner != FR_VOXEL_FREE) {
             put(out, &(uint16_t){(uint16_t)i}, sizeof(uint16_t));
-            put(out, &brick->owner[i], sizeof(uint32_t));
+            put(out, &brick->voxels[i].owner, sizeof(uint32_t));
         }
     }
 }
@@ -197,7 +197,7 @@ static bool take_plant(FrBytesReader *reader, const FrGrowth *growth, FrGrownPla
 static bool take_owners(FrGrowth *growth) {
     fr_growth_reserve_owners(growth, growth->owner_count);
     for (uint32_t i = 0; i < growth->owner_count; i++) {
-        growth->owners[i] = (FrOwner){FR_NONE, FR_NONE};
+        growth->owners[i] = (FrOwner){FR_NONE, FR_NONE, FR_NONE};
     }
     for (uint32_t p = 0; p < growth->plant_count; p++) {
         const FrGrownPlant *plant = &growth->plants[p];
@@ -207,7 +207,7 @@ static bool take_owners(FrGrowth *growth) {
                 if (growth->owners[owner].plant != FR_NONE) {
                     return false;
                 }
-                growth->owners[owner] = (FrOwner){p, a};
+                growth->owners[owner] = (FrOwner){p, a, plant->axes[a].bearer};
             }
         }
     }
@@ -239,9 +239,9 @@ static bool take_cells(FrBytesReader *reader, FrGrowth *growth) {
                 growth->owners[owner].plant == FR_NONE) {
                 return false;
             }
-            brick->owner[index] = owner;
-            brick->taken[index / 64] |= UINT64_C(1) << (index % 64);
+            brick->voxels[index].owner = owner;
         }
+        fr_voxels_note_owners(brick);
     }
     return false;
 }

@@ -85,9 +85,9 @@ static void free_cells(const FrGrowth *growth, const FrGrownPlant *plant,
         uint32_t count = fr_growth_walk(growth, plant, nodes->parent[i], nodes->at[i], cells);
         for (uint32_t k = 0; k < count; k++) {
             FrBrick *brick = fr_voxels_brick(growth->voxels, cells[k]);
-            uint32_t index = fr_voxels_index(cells[k]);
-            if (brick != NULL && brick->owner != NULL && brick->owner[index] == owner) {
-                brick->owner[index] = FR_VOXEL_FREE;
+            if (brick != NULL && brick->voxels != NULL &&
+                fr_voxels_at(brick, cells[k])->owner == owner) {
+                fr_voxels_at(brick, cells[k])->owner = FR_VOXEL_FREE;
                 unsigned layer = (unsigned)cells[k].at[2] & 7;
                 uint64_t bit = UINT64_C(1) << fr_voxels_bit(cells[k]);
                 if ((brick->solid[layer] & bit) == 0) {
@@ -149,7 +149,7 @@ static void compact_axes(FrGrowth *growth, FrGrownPlant *plant, const uint32_t *
         FrGrownAxis axis = plant->axes[a];
         if (axis_of[a] == FR_NONE) {
             if (axis.owner != FR_NONE) {
-                growth->owners[axis.owner] = (FrOwner){FR_NONE, FR_NONE};
+                growth->owners[axis.owner] = (FrOwner){FR_NONE, FR_NONE, FR_NONE};
             }
             continue;
         }
@@ -158,6 +158,7 @@ static void compact_axes(FrGrowth *growth, FrGrownPlant *plant, const uint32_t *
         axis.last = axis.last == FR_NONE ? FR_NONE : node_of[axis.last];
         if (axis.owner != FR_NONE) {
             growth->owners[axis.owner].axis = left;
+            growth->owners[axis.owner].bearer = axis.bearer;
         }
         memcpy(&plant->axes[left++], &axis, sizeof axis);
     }

@@ -96,15 +96,24 @@ static bool is_drawn(uint32_t hash, uint32_t index, float share) {
     return (float)(bits >> 8) * 0x1p-24f < share;
 }
 
+// Without the care of fmaxf() for what is no number, of which there is none here.
+static inline float larger(float a, float b) {
+    return a > b ? a : b;
+}
+
+static inline float smaller(float a, float b) {
+    return a < b ? a : b;
+}
+
 static void draw_square(const View *view, float x, float y, float depth, float half) {
-    int left = (int)fmaxf(x - half + 0.5f, 0),
-        right = (int)fminf(x + half + 0.5f, (float)view->width);
-    int low = (int)fmaxf(y - half + 0.5f, 0),
-        high = (int)fminf(y + half + 0.5f, (float)view->width);
+    int left = (int)larger(x - half + 0.5f, 0),
+        right = (int)smaller(x + half + 0.5f, (float)view->width);
+    int low = (int)larger(y - half + 0.5f, 0),
+        high = (int)smaller(y + half + 0.5f, (float)view->width);
     for (int row = low; row < high; row++) {
         float *pixels = view->depth + (size_t)row * (size_t)view->width;
         for (int column = left; column < right; column++) {
-            pixels[column] = fmaxf(pixels[column], depth);
+            pixels[column] = larger(pixels[column], depth);
         }
     }
 }
@@ -122,7 +131,7 @@ static void draw_shades(const View *view, const FrShades *shades) {
             bool is_inside = x >= 0 && y >= 0 && x < (float)view->width && y < (float)view->width;
             if (is_inside) {
                 float *pixel = view->depth + (size_t)y * (size_t)view->width + (size_t)x;
-                *pixel = fmaxf(*pixel, depth);
+                *pixel = larger(*pixel, depth);
             }
         }
     }
@@ -140,10 +149,10 @@ static void draw_triangle(const View *view, const float corner[3][2], const floa
     }
     int from[2], to[2];
     for (int k = 0; k < 2; k++) {
-        float low = fminf(corner[0][k], fminf(corner[1][k], corner[2][k]));
-        float high = fmaxf(corner[0][k], fmaxf(corner[1][k], corner[2][k]));
-        from[k] = (int)fminf(fmaxf(low - 0.5f, 0), (float)view->width);
-        to[k] = (int)fminf(fmaxf(high + 1.5f, 0), (float)view->width);
+        float low = smaller(corner[0][k], smaller(corner[1][k], corner[2][k]));
+        float high = larger(corner[0][k], larger(corner[1][k], corner[2][k]));
+        from[k] = (int)smaller(larger(low - 0.5f, 0), (float)view->width);
+        to[k] = (int)smaller(larger(high + 1.5f, 0), (float)view->width);
     }
     for (int row = from[1]; row < to[1]; row++) {
         for (int column = from[0]; column < to[0]; column++) {
@@ -153,7 +162,7 @@ static void draw_triangle(const View *view, const float corner[3][2], const floa
             float c = 1 - a - b;
             if (a >= 0 && b >= 0 && c >= 0) {
                 float *pixel = view->depth + (size_t)row * (size_t)view->width + (size_t)column;
-                *pixel = fmaxf(*pixel, a * depth[0] + b * depth[1] + c * depth[2]);
+                *pixel = larger(*pixel, a * depth[0] + b * depth[1] + c * depth[2]);
             }
         }
     }
@@ -186,7 +195,7 @@ static void look_at_buds(const Looking *looking, const View *view) {
         int column = (int)CLAMP(x, 0, (float)(view->width - 1));
         int row = (int)CLAMP(y, 0, (float)(view->width - 1));
         // Its own leaves do not shade a bud, nor does the slope of the pixel.
-        float bias = fmaxf(looking->pixel, looking->buds[i].own_shade);
+        float bias = larger(looking->pixel, looking->buds[i].own_shade);
         float depth = view->depth[(size_t)row * (size_t)view->width + (size_t)column];
         is_seen[i] = depth <= glms_vec3_dot(at, view->towards) + bias;
     }

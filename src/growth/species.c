@@ -26,6 +26,23 @@ static void scale_order(const FrSpeciesParams *params, FrOrderParams *order) {
     order->angle = MIN(angle, 175 * G_PI / 180);
 }
 
+/// Works out once what every bud needs.
+static void prepare(FrReadySpecies *ready) {
+    const FrSpeciesParams *params = &ready->params;
+    for (uint32_t row = 0; row < ready->order_count; row++) {
+        ready->cosine[row] = (float)cos(ready->orders[row].angle);
+        ready->sine[row] = (float)sin(ready->orders[row].angle);
+    }
+    for (int order = 0; order < 256; order++) {
+        double control = params->apical_control > 1 ? 1 / params->apical_control : 1;
+        ready->shorter[order] = (float)pow(params->step_ratio * control, order);
+    }
+    ready->wander = (float)tan(MIN(params->wander, 1.2));
+    ready->trial = (float)tan(MIN(params->trial_angle, 1.4));
+    ready->turn_cosine = (float)cos(params->turn_limit);
+    ready->turn_sine = (float)sin(params->turn_limit);
+}
+
 FrReadySpecies fr_species_make_ready(const FrSpecies *species) {
     FrReadySpecies ready = {.bark = species->bark,
                             .leaf = species->leaf,
@@ -45,6 +62,7 @@ FrReadySpecies fr_species_make_ready(const FrSpecies *species) {
             scale_order(params, &ready.orders[row]);
         }
     }
+    prepare(&ready);
     return ready;
 }
 

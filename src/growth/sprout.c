@@ -17,11 +17,14 @@ static uint32_t buds_in_light(const FrSpeciesParams *params, uint32_t tier, floa
 
 /// Adds `count` buds around the tip of the apex' last internode.
 static void add_around(FrGrownPlant *plant, FrLiveBud apex, uint32_t node, uint32_t count,
-                       double angle, double divergence, uint8_t row, bool is_relay) {
+                       double divergence, const FrReadySpecies *species, uint8_t row,
+                       bool is_relay) {
     const FrGrownAxis *axis = &plant->axes[apex.axis];
     // An apex' buds of one node are told apart by the node's place on its axis.
     FrKey key = fr_key_child(axis->key, axis->internodes);
     vec3s other = glms_vec3_cross(apex.direction, apex.side);
+    uint32_t built = MIN(row, species->order_count - 1);
+    float cosine = species->cosine[built], sine = species->sine[built];
     for (uint32_t i = 0; i < count; i++) {
         float around = (float)(divergence + 2 * G_PI * i / count);
         vec3s out = glms_vec3_add(glms_vec3_scale(apex.side, cosf(around)),
@@ -30,12 +33,10 @@ static void add_around(FrGrownPlant *plant, FrLiveBud apex, uint32_t node, uint3
         bud->key = fr_key_child(key, i + (is_relay ? 256 : 0));
         bud->node = node;
         bud->axis = apex.axis;
-        bud->direction =
-            glms_vec3_normalize(glms_vec3_add(glms_vec3_scale(apex.direction, (float)cos(angle)),
-                                              glms_vec3_scale(out, (float)sin(angle))));
-        bud->side =
-            glms_vec3_normalize(glms_vec3_sub(glms_vec3_scale(apex.direction, (float)sin(angle)),
-                                              glms_vec3_scale(out, (float)cos(angle))));
+        bud->direction = glms_vec3_normalize(
+            glms_vec3_add(glms_vec3_scale(apex.direction, cosine), glms_vec3_scale(out, sine)));
+        bud->side = glms_vec3_normalize(
+            glms_vec3_sub(glms_vec3_scale(apex.direction, sine), glms_vec3_scale(out, cosine)));
         bud->light = apex.light;
         bud->brightest = apex.brightest;
         bud->state = FR_LIVE_ASLEEP;
@@ -74,14 +75,14 @@ void fr_growth_sprout(const FrGrowth *growth, FrGrownPlant *plant, uint32_t inde
         uint32_t tier = n / (order->growth == FR_GROWTH_RHYTHMIC ? (uint32_t)order->unit : 1);
         uint32_t count = buds_in_light(&species->params, (uint32_t)order->tier, apex.light);
         uint8_t row = (uint8_t)MIN(apex.row + 1u, species->order_count - 1);
-        add_around(plant, apex, node, count, next->angle, order->divergence * tier, row, false);
+        add_around(plant, apex, node, count, order->divergence * tier, species, row, false);
     }
     if (has_ended) {
         plant->axes[apex.axis].is_growing = false;
         plant->buds[index].state = FR_LIVE_DONE;
         if (axis->order < species->params.max_order) {
-            add_around(plant, apex, node, (uint32_t)order->relays, order->angle,
-                       order->divergence * (axis->order + 1), apex.row, true);
+            add_around(plant, apex, node, (uint32_t)order->relays,
+                       order->divergence * (axis->order + 1), species, apex.row, true);
         }
     }
 }

@@ -12,7 +12,7 @@ static void note_owner(FrGrowth *growth, uint32_t plant, uint32_t axis) {
     }
     fr_growth_reserve_owners(growth, growth->owner_count + 1);
     of->owner = growth->owner_count;
-    growth->owners[growth->owner_count++] = (FrOwner){plant, axis};
+    growth->owners[growth->owner_count++] = (FrOwner){plant, axis, of->bearer};
 }
 
 static void room_for_proposals(FrGrowth *growth, uint32_t count) {
@@ -20,9 +20,24 @@ static void room_for_proposals(FrGrowth *growth, uint32_t count) {
         growth->proposal_capacity = count + count / 2;
         growth->proposals = g_renew(FrProposal, growth->proposals, growth->proposal_capacity);
         growth->by_rank = g_renew(uint32_t, growth->by_rank, growth->proposal_capacity);
+        growth->other_rank = g_renew(uint32_t, growth->other_rank, growth->proposal_capacity);
         growth->open = g_renew(uint32_t, growth->open, growth->proposal_capacity);
         growth->sort_keys = g_renew(uint64_t, growth->sort_keys, growth->proposal_capacity);
+        growth->cells =
+            g_renew(FrCell, growth->cells, (size_t)growth->proposal_capacity * growth->cell_stride);
     }
+}
+
+static FrProposal proposal_of(const FrGrownPlant *plant, uint32_t index, uint32_t b) {
+    const FrLiveBud *bud = &plant->buds[b];
+    const FrGrownAxis *axis = &plant->axes[bud->axis];
+    bool is_first = axis->internodes == 0 && bud->node != FR_NONE;
+    return (FrProposal){.plant = index,
+                        .bud = b,
+                        .node = bud->node,
+                        .own = axis->owner,
+                        .branched_off =
+                            is_first ? plant->axes[plant->nodes.axis[bud->node]].owner : FR_NONE};
 }
 
 /// Gathers a proposal for every shoot that has this internode still to make.
@@ -38,36 +53,21 @@ static uint32_t gather(FrGrowth *growth, uint32_t internode) {
     count = 0;
     for (uint32_t p = 0; p < growth->plant_count; p++) {
         FrGrownPlant *plant = &growth->plants[p];
+        plant->first_proposal = count;
         for (uint32_t b = 0; b < plant->bud_count; b++) {
             const FrLiveBud *bud = &plant->buds[b];
             if (bud->state == FR_LIVE_GROWING && bud->shoot > internode) {
-                growth->proposals[count] = (FrProposal){.plant = p, .bud = b};
                 growth->sort_keys[count] = fr_random_bits(bud->key, FR_CHANCE_CLAIM,
                                                           (uint32_t)growth->step * 64u + internode);
                 growth->open[count] = count;
                 note_owner(growth, p, bud->axis);
+                growth->proposals[count] = proposal_of(plant, p, b);
                 count++;
             }
         }
+        plant->proposal_count = count - plant->first_proposal;
     }
     return count;
-}
-
-static int compare_keys(const void *a, const void *b, void *data) {
-    const uint64_t *keys = data;
-    uint64_t x = keys[*(const uint32_t *)a], y = keys[*(const uint32_t *)b];
-    return x < y ? -1 : x > y;
-}
-
-static void rank(FrGrowth *growth, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++) {
-        growth->by_rank[i] = i;
-    }
-    g_qsort_with_data(growth->by_rank, (int)count, sizeof(uint32_t), compare_keys,
-                      growth->sort_keys);
-    for (uint32_t i = 0; i < count; i++) {
-        growth->proposals[growth->by_rank[i]].rank = i;
-    }
 }
 
 /// What has been settled becomes wood.
@@ -90,6 +90,18 @@ static void commit(FrGrowth *growth, const FrProposal *proposal) {
     bud->node = node;
     fr_growth_turn(bud, proposal->direction, (float)species->params.twist);
     fr_growth_sprout(growth, plant, proposal->bud, node);
+}
+
+/// Proposals stand plant by plant.
+static void commit_plants(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    FrGrowth *growth = data;
+    for (size_t p = begin; p < end; p++) {
+        const FrGrownPlant *plant = &growth->plants[p];
+        for (uint32_t i = 0; i < plant->proposal_count; i++) {
+            commit(growth, &growth->proposals[plant->first_proposal + i]);
+        }
+    }
 }
 
 static void begin_plants(void *data, size_t begin, size_t end, int worker) {
@@ -183,11 +195,9 @@ static void make_shoots(FrGrowth *growth, const FrContext *context) {
         if (count == 0) {
             return;
         }
-        rank(growth, count);
+        fr_growth_rank(growth, count);
         fr_growth_settle(growth, growth->open, count, context);
-        for (uint32_t i = 0; i < count; i++) {
-            commit(growth, &growth->proposals[i]);
-        }
+        fr_parallel_for(context->pool, growth->plant_count, 1, commit_plants, growth, NULL);
     }
 }
 

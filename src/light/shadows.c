@@ -3,15 +3,25 @@
 // −log2(1 − a·b^−d).
 #include "frond/shadows.h"
 
+#include "frond/random.h"
+
 #include <cglm/struct.h>
 #include <math.h>
+#include <string.h>
 
 enum { LAYERS_A_CHUNK = 8 };
 
 #define ONE 262144.0 // a whole unit of shadow
 
+/// Voxels low … high − 1 along each axis.
+typedef struct Box {
+    int low[3], high[3];
+} Box;
+
 struct FrShadows {
     FrShadowSettings settings;
+    float *light;     ///< by voxel, as of the last fr_shadows_settle(); NULL before the first
+    Box changed;      ///< … but in here
     uint32_t *shade;  ///< by voxel, x fastest, then y, then z
     int *reach;       ///< half width of each layer
     uint32_t **table; ///< what a point takes in each layer: (2 reach + 1)²
@@ -22,6 +32,7 @@ FrShadowSettings fr_shadows_default(void) {
                               .a = 0.441,
                               .b = 6.31,
                               .full = 1,
+                              .jitter = 0,
                               .depth = 6,
                               .spread = 1,
                               .cell = 1,
@@ -62,6 +73,7 @@ FrStatus fr_shadows_new(const FrShadowSettings *settings, const FrContext *conte
     *shadows = NULL;
     FR_ASSERT(settings->a > 0 && settings->b > 1 && settings->full > 0 && settings->cell > 0);
     FR_ASSERT(settings->depth >= 1 && settings->depth <= 64);
+    FR_ASSERT(settings->jitter >= 0 && settings->jitter < 1);
     FR_ASSERT(settings->spread >= 0 && settings->spread <= 4);
     uint64_t count = 1;
     for (int axis = 0; axis < 3; axis++) {
@@ -77,6 +89,7 @@ FrStatus fr_shadows_new(const FrShadowSettings *settings, const FrContext *conte
     *shadows = g_new0(FrShadows, 1);
     (*shadows)->settings = *settings;
     (*shadows)->shade = g_new0(uint32_t, count);
+    memcpy((*shadows)->changed.high, settings->cells, sizeof settings->cells);
     make_tables(*shadows);
     return FR_OK;
 }
@@ -91,6 +104,7 @@ void fr_shadows_free(FrShadows *shadows) {
     g_free(shadows->table);
     g_free(shadows->reach);
     g_free(shadows->shade);
+    g_free(shadows->light);
     g_free(shadows);
 }
 
@@ -148,8 +162,27 @@ static void cast_layers(void *data, size_t begin, size_t end, int worker) {
     }
 }
 
+/// Notes where the shadows of points fall.
+static void note_changed(FrShadows *shadows, const vec3s *points, size_t count) {
+    const FrShadowSettings *settings = &shadows->settings;
+    int aside = settings->depth * settings->spread;
+    Box *box = &shadows->changed;
+    for (size_t i = 0; i < count; i++) {
+        int voxel[3];
+        voxel_of(settings, points[i], voxel);
+        for (int axis = 0; axis < 3; axis++) {
+            int below = axis == 2 ? settings->depth : aside, above = axis == 2 ? 0 : aside;
+            int low = CLAMP(voxel[axis] - below, 0, settings->cells[axis] - 1);
+            int high = CLAMP(voxel[axis] + above, 0, settings->cells[axis] - 1) + 1;
+            box->low[axis] = MIN(box->low[axis], low);
+            box->high[axis] = MAX(box->high[axis], high);
+        }
+    }
+}
+
 void fr_shadows_cast(FrShadows *shadows, const vec3s *points, size_t count, bool is_taken,
                      const FrContext *context) {
+    note_changed(shadows, points, count);
     Cast cast = {shadows, points, count, is_taken};
     size_t layers = (size_t)shadows->settings.cells[2];
     size_t grain = context->pool == NULL ? layers : LAYERS_A_CHUNK;
@@ -158,46 +191,134 @@ void fr_shadows_cast(FrShadows *shadows, const vec3s *points, size_t count, bool
 
 // ---- light ------------------------------------------------------------------------------------
 
-static double voxel_light(const FrShadows *shadows, int x, int y, int z) {
+/// A part of full light, the same for a voxel always, in the uneven light of `jitter`.
+static double unevenness(const FrShadowSettings *settings, size_t index) {
+    return settings->jitter > 0
+               ? 1 - settings->jitter * fr_random(fr_key_root(settings->seed), 0, (uint32_t)index)
+               : 1;
+}
+
+static double light_of(const FrShadows *shadows, size_t index) {
     const FrShadowSettings *settings = &shadows->settings;
-    const int *cells = settings->cells;
+    double shade = (double)shadows->shade[index] / ONE;
+    double even = unevenness(settings, index);
+    if (settings->form == FR_SHADOWS_MULTIPLY) {
+        return even * exp2(-shade);
+    }
+    double left = settings->full - shade + (shade > 0 ? settings->a : 0);
+    return even * fmin(fmax(left / settings->full, 0), 1);
+}
+
+static bool is_in(const Box *box, int x, int y, int z) {
+    return x >= box->low[0] && x < box->high[0] && y >= box->low[1] && y < box->high[1] &&
+           z >= box->low[2] && z < box->high[2];
+}
+
+static double voxel_light(const FrShadows *shadows, int x, int y, int z) {
+    const int *cells = shadows->settings.cells;
     if (x < 0 || y < 0 || z < 0 || x >= cells[0] || y >= cells[1] || z >= cells[2]) {
         return 1;
     }
     size_t index = ((size_t)z * (size_t)cells[1] + (size_t)y) * (size_t)cells[0] + (size_t)x;
-    double shade = (double)shadows->shade[index] / ONE;
-    if (settings->form == FR_SHADOWS_MULTIPLY) {
-        return exp2(-shade);
+    return shadows->light == NULL || is_in(&shadows->changed, x, y, z)
+               ? light_of(shadows, index)
+               : (double)shadows->light[index];
+}
+
+static void settle_layers(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    FrShadows *shadows = data;
+    const int *cells = shadows->settings.cells;
+    const Box *box = &shadows->changed;
+    for (size_t layer = begin; layer < end; layer++) {
+        size_t z = (size_t)box->low[2] + layer;
+        for (int y = box->low[1]; y < box->high[1]; y++) {
+            size_t row = (z * (size_t)cells[1] + (size_t)y) * (size_t)cells[0];
+            for (int x = box->low[0]; x < box->high[0]; x++) {
+                shadows->light[row + (size_t)x] = (float)light_of(shadows, row + (size_t)x);
+            }
+        }
     }
-    double left = settings->full - shade + (shade > 0 ? settings->a : 0);
-    return fmin(fmax(left / settings->full, 0), 1);
+}
+
+void fr_shadows_settle(FrShadows *shadows, const FrContext *context) {
+    const int *cells = shadows->settings.cells;
+    Box *box = &shadows->changed;
+    if (shadows->light == NULL) {
+        shadows->light = g_new(float, (size_t)cells[0] * (size_t)cells[1] * (size_t)cells[2]);
+    }
+    if (box->high[2] > box->low[2]) {
+        size_t layers = (size_t)(box->high[2] - box->low[2]);
+        fr_parallel_for(context->pool, layers, 1, settle_layers, shadows, NULL);
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        box->low[axis] = cells[axis];
+        box->high[axis] = 0;
+    }
+}
+
+/// The eight voxels at `low` and above along each axis.
+static void corners_of(const FrShadows *shadows, const int low[3], double corners[8]) {
+    const int *cells = shadows->settings.cells;
+    const Box *box = &shadows->changed;
+    bool is_settled = shadows->light != NULL && box->high[0] <= box->low[0];
+    bool is_inside = true;
+    for (int axis = 0; axis < 3; axis++) {
+        is_inside = is_inside && low[axis] >= 0 && low[axis] < cells[axis] - 1;
+    }
+    if (is_settled && is_inside) {
+        size_t row = (size_t)cells[0], layer = row * (size_t)cells[1];
+        const float *at =
+            shadows->light + (size_t)low[2] * layer + (size_t)low[1] * row + (size_t)low[0];
+        for (int corner = 0; corner < 8; corner++) {
+            corners[corner] = (double)at[(size_t)(corner & 1) + (size_t)(corner >> 1 & 1) * row +
+                                         (size_t)(corner >> 2) * layer];
+        }
+        return;
+    }
+    for (int corner = 0; corner < 8; corner++) {
+        corners[corner] = voxel_light(shadows, low[0] + (corner & 1), low[1] + (corner >> 1 & 1),
+                                      low[2] + (corner >> 2));
+    }
 }
 
 /// Light at a place in voxels from the middle of the first one.
 static double light_at(const FrShadows *shadows, const double place[3]) {
-    double part[3];
+    double part[3], corners[8];
     int low[3];
     for (int axis = 0; axis < 3; axis++) {
         double at = fmin(fmax(place[axis], -0x1.0p30), 0x1.0p30 - 1);
         low[axis] = (int)floor(at);
         part[axis] = at - floor(at);
     }
+    corners_of(shadows, low, corners);
     double sum = 0;
     for (int corner = 0; corner < 8; corner++) {
         int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
         double weight =
             (x ? part[0] : 1 - part[0]) * (y ? part[1] : 1 - part[1]) * (z ? part[2] : 1 - part[2]);
-        sum += weight * voxel_light(shadows, low[0] + x, low[1] + y, low[2] + z);
+        sum += weight * corners[corner];
     }
     return sum;
 }
 
-FrShadowSample fr_shadows_at(const FrShadows *shadows, vec3s point, double radius) {
+/// A point in voxels from the middle of the first one.
+static void place_of(const FrShadows *shadows, vec3s point, double place[3]) {
     const FrShadowSettings *settings = &shadows->settings;
-    double place[3];
     for (int axis = 0; axis < 3; axis++) {
         place[axis] = ((double)point.raw[axis] - settings->origin[axis]) / settings->cell - 0.5;
     }
+}
+
+float fr_shadows_light(const FrShadows *shadows, vec3s point) {
+    double place[3];
+    place_of(shadows, point, place);
+    return (float)light_at(shadows, place);
+}
+
+FrShadowSample fr_shadows_at(const FrShadows *shadows, vec3s point, double radius) {
+    double place[3];
+    place_of(shadows, point, place);
     vec3s slope;
     for (int axis = 0; axis < 3; axis++) {
         double before[3] = {place[0], place[1], place[2]};

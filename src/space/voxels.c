@@ -4,8 +4,40 @@
 
 #include <math.h>
 #include <string.h>
+#include <sys/mman.h>
 
-enum { TOP = 64 * 64 * 64, BLOCK = 512, SLAB = 1 << 18 };
+enum { TOP = 64 * 64 * 64, BLOCK = 512, SLAB = 1 << 22, HUGE_PAGE = 1 << 21 };
+
+/// Zeroed memory in huge pages where the machine has them: bricks are met in no order, and looking
+/// up their pages costs as much as they do.
+static char *new_slab(void) {
+    char *slab =
+        mmap(NULL, SLAB + HUGE_PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    FR_ASSERT(slab != MAP_FAILED);
+    char *aligned = slab + (HUGE_PAGE - (uintptr_t)slab % HUGE_PAGE) % HUGE_PAGE;
+    madvise(aligned, SLAB, MADV_HUGEPAGE);
+    return slab;
+}
+
+static void free_slab(void *slab) {
+    munmap(slab, SLAB + HUGE_PAGE);
+}
+
+/// Zeroed memory that lives as long as the voxels, in whole cache lines.
+static void *take(FrVoxels *voxels, size_t size) {
+    size = (size + 63) / 64 * 64;
+    if (voxels->slab_used + size > voxels->slab_size) {
+        g_ptr_array_add(voxels->slabs, new_slab());
+        voxels->slab_size = SLAB;
+        voxels->slab_used = 0;
+    }
+    char *slab = g_ptr_array_index(voxels->slabs, voxels->slabs->len - 1);
+    char *aligned = slab + (HUGE_PAGE - (uintptr_t)slab % HUGE_PAGE) % HUGE_PAGE;
+    void *memory = aligned + voxels->slab_used;
+    voxels->slab_used += size;
+    voxels->bytes += size;
+    return memory;
+}
 
 FrVoxels *fr_voxels_new(const double origin[3], double cell) {
     FR_ASSERT(cell > 0);
@@ -14,7 +46,7 @@ FrVoxels *fr_voxels_new(const double origin[3], double cell) {
     voxels->cell = cell;
     voxels->top = g_new0(FrBrick **, TOP);
     voxels->bytes = TOP * sizeof(FrBrick **);
-    voxels->slabs = g_ptr_array_new_with_free_func(g_free);
+    voxels->slabs = g_ptr_array_new_with_free_func(free_slab);
     return voxels;
 }
 
@@ -24,22 +56,6 @@ void fr_voxels_free(FrVoxels *voxels) {
         g_free(voxels->top);
         g_free(voxels);
     }
-}
-
-/// Zeroed memory that lives as long as the voxels, in whole cache lines.
-static void *take(FrVoxels *voxels, size_t size) {
-    size = (size + 63) / 64 * 64;
-    if (voxels->slab_used + size > voxels->slab_size) {
-        g_ptr_array_add(voxels->slabs, g_malloc0(SLAB + 64));
-        voxels->slab_size = SLAB;
-        voxels->slab_used = 0;
-        voxels->bytes += SLAB;
-    }
-    char *slab = g_ptr_array_index(voxels->slabs, voxels->slabs->len - 1);
-    char *aligned = slab + (64 - (uintptr_t)slab % 64) % 64;
-    void *memory = aligned + voxels->slab_used;
-    voxels->slab_used += size;
-    return memory;
 }
 
 FrBrick *fr_voxels_make(FrVoxels *voxels, FrCell cell) {
@@ -60,11 +76,9 @@ FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell) {
     if (brick == NULL) {
         brick = fr_voxels_make(voxels, cell);
     }
-    if (brick->owner == NULL) {
-        brick->owner = take(voxels, FR_BRICK_CELLS * sizeof(uint32_t));
-        brick->claim = take(voxels, FR_BRICK_CELLS * sizeof(uint32_t));
-        memset(brick->owner, 0xff, FR_BRICK_CELLS * sizeof(uint32_t));
-        memset(brick->claim, 0xff, FR_BRICK_CELLS * sizeof(uint32_t));
+    if (brick->voxels == NULL) {
+        brick->voxels = take(voxels, FR_BRICK_CELLS * sizeof(FrVoxel));
+        memset(brick->voxels, 0xff, FR_BRICK_CELLS * sizeof(FrVoxel));
     }
     return brick;
 }
@@ -103,7 +117,7 @@ void fr_voxels_each_owned(const FrVoxels *voxels,
     for (int top = 0; top < TOP; top++) {
         FrBrick **block = voxels->top[top];
         for (int i = 0; block != NULL && i < BLOCK; i++) {
-            if (block[i] != NULL && block[i]->owner != NULL) {
+            if (block[i] != NULL && block[i]->voxels != NULL) {
                 FrCell first = {{(int16_t)((top % 64) * 64 + (i % 8) * 8),
                                  (int16_t)((top / 64 % 64) * 64 + (i / 8 % 8) * 8),
                                  (int16_t)((top / 4096) * 64 + (i / 64) * 8)}};
@@ -114,22 +128,31 @@ void fr_voxels_each_owned(const FrVoxels *voxels,
 }
 
 /// Bits of a layer that have an owner.
-static uint64_t owned_bits(const FrBrick *brick, int layer) {
+static uint64_t owned_bits(const FrBrick *brick, unsigned layer) {
     uint64_t bits = 0;
-    for (unsigned i = 0; brick->owner != NULL && i < 64; i++) {
-        bits |= (uint64_t)(brick->owner[(unsigned)layer * 64 + i] != FR_VOXEL_FREE) << i;
+    for (unsigned bit = 0; brick->voxels != NULL && bit < 64; bit++) {
+        uint32_t owner = brick->voxels[fr_voxels_slot(layer, bit)].owner;
+        bits |= (uint64_t)(owner != FR_VOXEL_FREE) << bit;
     }
     return bits;
+}
+
+void fr_voxels_note_owners(FrBrick *brick) {
+    for (unsigned layer = 0; layer < 8; layer++) {
+        brick->taken[layer] = owned_bits(brick, layer) | brick->solid[layer];
+    }
 }
 
 void fr_voxels_clear_solid(FrVoxels *voxels) {
     for (int top = 0; top < TOP; top++) {
         FrBrick **block = voxels->top[top];
         for (int i = 0; block != NULL && i < BLOCK; i++) {
-            for (int layer = 0; block[i] != NULL && layer < 8; layer++) {
-                block[i]->taken[layer] = owned_bits(block[i], layer);
+            for (unsigned layer = 0; block[i] != NULL && layer < 8; layer++) {
                 block[i]->solid[layer] = 0;
                 block[i]->ground[layer] = 0;
+            }
+            if (block[i] != NULL) {
+                fr_voxels_note_owners(block[i]);
             }
         }
     }
