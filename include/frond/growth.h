@@ -32,11 +32,16 @@
     X(REAL, shadow_strength, "0.441", 0.001, 1000, "", "", "shadows: light taken by a bud …")      \
     X(REAL, shadow_fade, "6.31", 1.01, 1000, "", "", "… falls by this factor for each cell")       \
     X(INTEGER, shadow_depth, "6", 1, 32, "", "", "shadows: cells that they reach down")            \
+    X(CHOICE, shadow_form, "times", 0, 0, "", "times minus",                                       \
+      "shadows: light is multiplied, or the shadow is taken away from it")                         \
+    X(REAL, shadow_jitter, "0.05", 0, 0.9, "", "", "shadows: unevenness of the light, by chance")  \
+    X(REAL, shadow_reach, "1.6", 0.1, 16, "", "", "shadows: cells to where it is compared")        \
     X(REAL, shadow_cell, "0.5", 0.001, 100, "m", "", "shadows: width of their cells")              \
     X(INTEGER, particles, "0", 0, 10000000, "", "", "attraction particles all over the arena")     \
     X(INTEGER, seed, "1", 0, 1000000000, "", "", "of what is left to chance besides the plants")   \
     X(INTEGER, history, "0", 0, 1000, "", "", "steps that can be undone")
 
+enum { FR_SHADOW_TIMES, FR_SHADOW_MINUS };
 enum { FR_GROWTH_VIEWS, FR_GROWTH_SHADOWS, FR_GROWTH_FULL };
 
 typedef struct FrGrowthParams {

@@ -58,6 +58,9 @@
     X(REAL, gravitropism, "0.15", -10, 10, "", "", "turns up, against gravity; below 0 down")      \
     X(REAL, attraction, "0.5", 0, 10, "", "", "turns towards attraction particles")                \
     X(REAL, wander, "6", 0, 90, "deg", "", "turns by chance")                                      \
+    X(CHOICE, turning, "sum", 0, 0, "", "sum part",                                                \
+      "internodes go along the sum of all directions, or turn a part of the way to light and up")  \
+    X(REAL, turn_part, "0.4", 0, 1, "", "", "turning part: at most so much of the way")            \
     X(REAL, turn_limit, "180", 0, 180, "deg", "", "turns at most in an internode")                 \
     /* light */                                                                                    \
     X(REAL, search, "0.5", 0, 5, "", "", "how much longer internodes are in shade")                \
@@ -167,6 +170,7 @@ enum { FR_FATE_AUXIN, FR_FATE_FLUX, FR_FATE_PRIORITY, FR_FATE_COLONIZE };
 enum { FR_SHED_NONE, FR_SHED_LIGHT, FR_SHED_VIGOUR, FR_SHED_BOTH };
 enum { FR_PARTICLE_SPACE, FR_PARTICLE_BUD };
 enum { FR_PARTICLES_ALL, FR_PARTICLES_NEAREST };
+enum { FR_TURN_SUM, FR_TURN_PART };
 enum { FR_AXIS_MONOPODIAL, FR_AXIS_SYMPODIAL };
 enum { FR_GROWTH_CONTINUOUS, FR_GROWTH_RHYTHMIC, FR_GROWTH_BASAL };
 enum { FR_BEARING_UPRIGHT, FR_BEARING_LEVEL, FR_BEARING_BENT };

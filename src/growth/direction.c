@@ -57,6 +57,30 @@ static vec3s limited(const FrReadySpecies *species, vec3s from, vec3s to) {
                          glms_vec3_scale(across, species->turn_sine / length));
 }
 
+/// Palubicki et al. 2009: a part of the turn from the bud's direction to where light and up draw
+/// it, the greater the stronger they draw.
+static vec3s turned_part(const FrGrowth *growth, const FrSpeciesParams *params,
+                         const FrLiveBud *bud) {
+    float pull = (float)params->phototropism * bud->slope;
+    vec3s to = glms_vec3_add(glms_vec3_scale(bud->brightest, pull),
+                             glms_vec3_scale(growth->up, (float)params->gravitropism));
+    float strength = glms_vec3_norm(to);
+    if (strength < 1e-6f) {
+        return bud->direction;
+    }
+    vec3s wanted = glms_vec3_scale(to, 1 / strength);
+    float part = fminf(strength, (float)params->turn_part);
+    float cosine = CLAMP(glms_vec3_dot(bud->direction, wanted), -1, 1);
+    float angle = acosf(cosine);
+    vec3s across = glms_vec3_sub(wanted, glms_vec3_scale(bud->direction, cosine));
+    float length = glms_vec3_norm(across);
+    if (length < 1e-6f) {
+        return bud->direction;
+    }
+    return glms_vec3_add(glms_vec3_scale(bud->direction, cosf(part * angle)),
+                         glms_vec3_scale(across, sinf(part * angle) / length));
+}
+
 vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud,
                           uint32_t trial) {
     const FrReadySpecies *species = fr_species_of(growth, plant);
@@ -64,8 +88,12 @@ vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, con
     const FrGrownAxis *axis = &plant->axes[bud->axis];
     const FrOrderParams *order = fr_order_of(species, bud->row);
     vec3s sum = bud->direction;
-    sum = glms_vec3_add(sum, glms_vec3_scale(bud->brightest, (float)params->phototropism));
-    sum = glms_vec3_add(sum, gravity_pull(growth, params, order, axis, bud->direction));
+    if (params->turning == FR_TURN_PART) {
+        sum = turned_part(growth, params, bud);
+    } else {
+        sum = glms_vec3_add(sum, glms_vec3_scale(bud->brightest, (float)params->phototropism));
+        sum = glms_vec3_add(sum, gravity_pull(growth, params, order, axis, bud->direction));
+    }
     sum = glms_vec3_add(sum, glms_vec3_scale(bud->attraction, (float)params->attraction));
     if (species->wander > 0) {
         sum = glms_vec3_add(

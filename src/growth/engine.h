@@ -4,6 +4,7 @@
 #pragma once
 
 #include "frond/growth.h"
+#include "frond/shadows.h"
 #include "frond/voxels.h"
 
 /// What chance is asked for; part of the key of every draw.
@@ -38,6 +39,7 @@ typedef struct FrLiveBud {
     float light;        ///< 0 to 1
     float vigour;       ///< of the shoot that it makes in this step
     float length;       ///< of the shoot's internodes, m
+    float slope;        ///< how much lighter it is over there; 1 where only the direction is known
     uint16_t age;       ///< steps since it came to be, or woke
     uint16_t place;     ///< asleep: internodes of the axis below it
     uint8_t state;      ///< FrLiveState
@@ -153,6 +155,8 @@ struct FrGrowth {
     const FrLamp *lamps;
     uint32_t lamp_count;
     FrParticles *particles; ///< NULL: none
+    FrShadows *shadows;     ///< that nodes cast; NULL: none yet
+    GArray **fallen;        ///< by worker: where fallen internodes cast shadows
     FrGrownPlant *plants;
     uint32_t plant_count;
     FrOwner *owners; ///< by number in the voxels
@@ -167,7 +171,7 @@ struct FrGrowth {
     uint32_t proposal_capacity;
     FrLiveBudAt *live; ///< all live buds, the growing ones first
     uint32_t live_capacity;
-    FrScratch *scratch; ///< by worker
+    FrScratch *scratch, *drop_scratch; ///< by worker
     int scratch_count;
     uint64_t step;
     double seconds, light_seconds; ///< of the last step
@@ -203,6 +207,10 @@ void fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count
                        const FrContext *context);
 
 // ---- light.c, sky.c -----------------------------------------------------------------------------
+/// Takes the shadows of what has fallen back, and casts those of this step's internodes.
+void fr_growth_recast(FrGrowth *growth, const FrContext *context);
+/// Brightest direction and slope at a bud in the shadows.
+void fr_growth_look_around(const FrGrowth *growth, const FrGrownPlant *plant, FrLiveBud *bud);
 /// The light of all live buds, and where it is brightest.
 FrStatus fr_growth_light(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
                          const FrContext *context);
@@ -218,6 +226,8 @@ FrLiveBud *fr_grown_add_bud(FrGrownPlant *plant);
 void fr_grown_clear(FrGrownPlant *plant);
 FrDigest fr_grown_digest(const FrGrownPlant *plant);
 void fr_grown_reserve(FrGrownPlant *plant, uint32_t nodes, uint32_t axes, uint32_t buds);
+/// Where an internode begins, in the world.
+vec3s fr_grown_base(const FrGrownPlant *plant, uint32_t node);
 uint64_t fr_grown_bytes(const FrGrownPlant *plant);
 
 /// At least so many bytes, as they are.
@@ -262,9 +272,15 @@ void fr_growth_pipes(const FrGrownPlant *plant, double taper, double *pipes);
 void fr_growth_radii(const FrReadySpecies *species, const double *pipes, uint32_t count,
                      float *radii);
 
+// ---- fates.c ----------------------------------------------------------------------------------
+/// What each bud will do in this step: how many internodes it makes, and how long they are.
+void fr_growth_fates(FrGrowth *growth, FrGrownPlant *plant, int worker);
+
 // ---- shed.c -----------------------------------------------------------------------------------
 /// Drops branches, and takes them out of the columns.
-void fr_growth_shed(FrGrowth *growth, FrGrownPlant *plant, FrScratch *scratch);
+void fr_growth_shed(FrGrowth *growth, FrGrownPlant *plant, int worker);
+/// Drops the marked internodes; on what bears one that has fallen, all must have.
+void fr_growth_drop(FrGrowth *growth, FrGrownPlant *plant, const uint8_t *has_fallen, int worker);
 
 // ---- envelope.c -------------------------------------------------------------------------------
 /// True if a place, relative to the seed, is within the species' envelope.

@@ -43,6 +43,8 @@ static FrStatus check_setup(const FrGrowthSetup *setup, const FrContext *context
 static void take_species(FrGrowth *growth, const FrGrowthSetup *setup) {
     growth->species_count = setup->species_count;
     growth->cell_stride = 1;
+    fr_shadows_free(growth->shadows); // made anew as the parameters say
+    growth->shadows = NULL;
     growth->proposal_capacity = 0;
     growth->species = g_new(FrReadySpecies, setup->species_count);
     for (uint32_t i = 0; i < setup->species_count; i++) {
@@ -156,6 +158,7 @@ void fr_growth_drop_state(FrGrowth *growth) {
     }
     fr_voxels_free(growth->voxels);
     fr_particles_free(growth->particles);
+    fr_shadows_free(growth->shadows);
     g_free(growth->plants);
     g_free(growth->owners);
 }
@@ -176,8 +179,12 @@ void fr_growth_free(FrGrowth *growth) {
     g_free(growth->live);
     for (int i = 0; i < growth->scratch_count; i++) {
         g_free(growth->scratch[i].memory);
+        g_free(growth->drop_scratch[i].memory);
+        g_array_free(growth->fallen[i], TRUE);
     }
     g_free(growth->scratch);
+    g_free(growth->drop_scratch);
+    g_free(growth->fallen);
     g_ptr_array_free(growth->history, TRUE);
     g_free(growth);
 }

@@ -59,10 +59,122 @@ static void look_at_sky(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t coun
     g_free(shades.hash);
 }
 
+// ---- shadows ----------------------------------------------------------------------------------
+
+/// Voxels over the arena, with the shadow of every internode cast at its base.
+static FrStatus make_shadows(FrGrowth *growth, const FrContext *context) {
+    const FrGrowthParams *params = &growth->params;
+    FrShadowSettings settings = {
+        .form = params->shadow_form == FR_SHADOW_MINUS ? FR_SHADOWS_SUBTRACT : FR_SHADOWS_MULTIPLY,
+        .a = params->shadow_strength,
+        .b = params->shadow_fade,
+        .full = 1,
+        .depth = (int)params->shadow_depth,
+        .spread = 1,
+        .cell = params->shadow_cell,
+        .jitter = params->shadow_jitter,
+        .seed = (uint64_t)params->seed};
+    for (int axis = 0; axis < 3; axis++) {
+        double low = (double)params->min.raw[axis], high = (double)params->max.raw[axis];
+        settings.origin[axis] = low;
+        settings.cells[axis] = (int)MIN(ceil((high - low) / settings.cell), 1e6);
+    }
+    FrStatus status = fr_shadows_new(&settings, context, &growth->shadows);
+    if (status != FR_OK) {
+        return status;
+    }
+    GArray *bases = g_array_new(FALSE, FALSE, sizeof(vec3s));
+    for (uint32_t p = 0; p < growth->plant_count; p++) {
+        for (uint32_t i = 0; i < growth->plants[p].nodes.count; i++) {
+            vec3s at = fr_grown_base(&growth->plants[p], i);
+            g_array_append_val(bases, at);
+        }
+    }
+    fr_shadows_cast(growth->shadows, (const vec3s *)(void *)bases->data, bases->len, false,
+                    context);
+    g_array_free(bases, TRUE);
+    return FR_OK;
+}
+
+void fr_growth_recast(FrGrowth *growth, const FrContext *context) {
+    if (growth->shadows == NULL) {
+        return;
+    }
+    for (int worker = 0; worker < growth->scratch_count; worker++) {
+        GArray *fallen = growth->fallen[worker];
+        fr_shadows_cast(growth->shadows, (const vec3s *)(void *)fallen->data, fallen->len, true,
+                        context);
+        g_array_set_size(fallen, 0);
+    }
+    GArray *bases = growth->fallen[0];
+    for (uint32_t p = 0; p < growth->plant_count; p++) {
+        const FrGrownPlant *plant = &growth->plants[p];
+        for (uint32_t i = 0; i < plant->nodes.count; i++) {
+            if (plant->nodes.birth[i] == MIN(growth->step, UINT16_MAX)) {
+                vec3s at = fr_grown_base(plant, i);
+                g_array_append_val(bases, at);
+            }
+        }
+    }
+    fr_shadows_cast(growth->shadows, (const vec3s *)(void *)bases->data, bases->len, false,
+                    context);
+    g_array_set_size(bases, 0);
+}
+
+void fr_growth_look_around(const FrGrowth *growth, const FrGrownPlant *plant, FrLiveBud *bud) {
+    if (growth->shadows != NULL) {
+        double reach = growth->params.shadow_reach;
+        FrShadowSample sample = fr_shadows_at(
+            growth->shadows,
+            bud->node == FR_NONE ? fr_bud_world(plant, bud) : fr_grown_base(plant, bud->node),
+            reach);
+        bud->brightest = sample.direction;
+        bud->slope = sample.slope * (float)(2 * reach);
+    }
+}
+
+typedef struct Shading {
+    const FrGrowth *growth;
+    const FrLiveBudAt *buds;
+} Shading;
+
+static void light_range(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Shading *shading = data;
+    const FrGrowth *growth = shading->growth;
+    for (size_t i = begin; i < end; i++) {
+        const FrLiveBudAt *at = &shading->buds[i];
+        at->bud->light = fr_shadows_light(growth->shadows, at->world);
+        bool is_lazy = at->params->fate == FR_FATE_FLUX || at->params->fate == FR_FATE_PRIORITY;
+        if (!is_lazy && at->bud->state == FR_LIVE_GROWING) {
+            FrShadowSample sample =
+                fr_shadows_at(growth->shadows, at->world, growth->params.shadow_reach);
+            at->bud->brightest = sample.direction;
+            at->bud->slope = sample.slope * (float)(2 * growth->params.shadow_reach);
+        }
+    }
+}
+
+static FrStatus look_into_shadows(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+                                  const FrContext *context) {
+    enum { GRAIN = 1024 };
+    if (growth->shadows == NULL) {
+        FrStatus status = make_shadows(growth, context);
+        if (status != FR_OK) {
+            return status;
+        }
+    }
+    fr_shadows_settle(growth->shadows, context);
+    Shading shading = {growth, buds};
+    fr_parallel_for(context->pool, count, GRAIN, light_range, &shading, NULL);
+    return FR_OK;
+}
+
 static void full_light(const FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         buds[i].bud->light = 1;
         buds[i].bud->brightest = growth->up;
+        buds[i].bud->slope = 1;
     }
 }
 
@@ -72,6 +184,8 @@ FrStatus fr_growth_light(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t cou
     case FR_GROWTH_VIEWS:
         look_at_sky(growth, buds, count, context);
         return FR_OK;
+    case FR_GROWTH_SHADOWS:
+        return look_into_shadows(growth, buds, count, context);
     default:
         full_light(growth, buds, count);
         return FR_OK;

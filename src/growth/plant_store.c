@@ -110,6 +110,15 @@ uint64_t fr_grown_bytes(const FrGrownPlant *plant) {
            plant->bud_count * sizeof(FrLiveBud);
 }
 
+vec3s fr_grown_base(const FrGrownPlant *plant, uint32_t node) {
+    uint32_t parent = plant->nodes.parent[node];
+    vec3s at = parent == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[parent];
+    for (int axis = 0; axis < 3; axis++) {
+        at.raw[axis] = (float)(plant->seed.at[axis] + (double)at.raw[axis]);
+    }
+    return at;
+}
+
 void *fr_scratch_take(FrScratch *scratch, size_t size) {
     if (size > scratch->size) {
         g_free(scratch->memory);

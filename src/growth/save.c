@@ -281,6 +281,8 @@ static void exchange(FrGrowth *growth, FrGrowth *read) {
     read->plant_count = old.plant_count;
     read->owners = old.owners;
     read->voxels = old.voxels;
+    read->shadows = old.shadows;
+    growth->shadows = NULL; // cast anew by the next step
     growth->voxels = voxels;
     FrParticles *particles = growth->particles;
     growth->particles = read->particles;

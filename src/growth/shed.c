@@ -43,13 +43,8 @@ static bool falls(const FrGrowth *growth, const FrSpeciesParams *params, const F
         return false;
     }
     bool by_light = params->shed == FR_SHED_LIGHT || params->shed == FR_SHED_BOTH;
-    bool by_vigour = params->shed == FR_SHED_VIGOUR || params->shed == FR_SHED_BOTH;
     if (by_light && crown->buds > 0 &&
         (double)crown->dark >= params->shed_share * (double)crown->buds) {
-        return true;
-    }
-    if (by_vigour && params->fate != FR_FATE_AUXIN && params->fate != FR_FATE_COLONIZE &&
-        (double)axis->vigour < params->shed_vigour * crown->internodes) {
         return true;
     }
     return params->shed != FR_SHED_NONE && params->shed_dead > 0 && crown->buds == 0 &&
@@ -142,6 +137,17 @@ static void number_axes(const FrGrownPlant *plant, const uint8_t *has_fallen, ui
     }
 }
 
+/// The last internode that is left of an axis, and how many are.
+static void find_end(const FrGrownPlant *plant, uint32_t number, FrGrownAxis *axis) {
+    axis->internodes = 0;
+    for (uint32_t i = axis->first; i < plant->nodes.count; i++) {
+        if (plant->nodes.axis[i] == number) {
+            axis->last = i;
+            axis->internodes++;
+        }
+    }
+}
+
 static void compact_axes(FrGrowth *growth, FrGrownPlant *plant, const uint32_t *axis_of,
                          const uint32_t *node_of) {
     uint32_t left = 0;
@@ -155,7 +161,11 @@ static void compact_axes(FrGrowth *growth, FrGrownPlant *plant, const uint32_t *
         }
         axis.bearer = axis.bearer == FR_NONE ? FR_NONE : node_of[axis.bearer];
         axis.first = axis.first == FR_NONE ? FR_NONE : node_of[axis.first];
-        axis.last = axis.last == FR_NONE ? FR_NONE : node_of[axis.last];
+        if (axis.first != FR_NONE && node_of[axis.last] == FR_NONE) {
+            find_end(plant, left, &axis);
+        } else if (axis.first != FR_NONE) {
+            axis.last = node_of[axis.last];
+        }
         if (axis.owner != FR_NONE) {
             growth->owners[axis.owner].axis = left;
             growth->owners[axis.owner].bearer = axis.bearer;
@@ -165,16 +175,18 @@ static void compact_axes(FrGrowth *growth, FrGrownPlant *plant, const uint32_t *
     plant->axis_count = left;
 }
 
-static void compact_buds(FrGrownPlant *plant, const uint32_t *axis_of, const uint32_t *node_of) {
+/// Buds go with what they sit on; an axis whose apex goes has ended.
+static void compact_buds(FrGrownPlant *plant, const uint8_t *has_fallen) {
     uint32_t left = 0;
     for (uint32_t b = 0; b < plant->bud_count; b++) {
-        FrLiveBud *bud = &plant->buds[b];
-        if (bud->node != FR_NONE && node_of[bud->node] == FR_NONE) {
+        const FrLiveBud *bud = &plant->buds[b];
+        if (bud->node != FR_NONE && has_fallen[bud->node]) {
+            if (bud->state == FR_LIVE_GROWING) {
+                plant->axes[bud->axis].is_growing = false;
+            }
             continue;
         }
-        bud->node = bud->node == FR_NONE ? FR_NONE : node_of[bud->node];
-        bud->axis = axis_of[bud->axis];
-        if (bud != &plant->buds[left]) {
+        if (b != left) {
             memcpy(&plant->buds[left], bud, sizeof *bud);
         }
         left++;
@@ -182,28 +194,48 @@ static void compact_buds(FrGrownPlant *plant, const uint32_t *axis_of, const uin
     plant->bud_count = left;
 }
 
-void fr_growth_shed(FrGrowth *growth, FrGrownPlant *plant, FrScratch *scratch) {
+static void renumber_buds(FrGrownPlant *plant, const uint32_t *axis_of, const uint32_t *node_of) {
+    for (uint32_t b = 0; b < plant->bud_count; b++) {
+        FrLiveBud *bud = &plant->buds[b];
+        bud->node = bud->node == FR_NONE ? FR_NONE : node_of[bud->node];
+        bud->axis = axis_of[bud->axis];
+    }
+}
+
+void fr_growth_drop(FrGrowth *growth, FrGrownPlant *plant, const uint8_t *has_fallen, int worker) {
+    const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
+    uint32_t nodes = plant->nodes.count;
+    size_t numbers = (size_t)(nodes + plant->axis_count) * sizeof(uint32_t);
+    double *pipes =
+        fr_scratch_take(&growth->drop_scratch[worker], nodes * sizeof(double) + numbers);
+    uint32_t *node_of = (uint32_t *)(void *)(pipes + nodes), *axis_of = node_of + nodes;
+    for (uint32_t i = 0; i < nodes; i++) {
+        plant->shed += has_fallen[i];
+        if (has_fallen[i] && growth->shadows != NULL) {
+            vec3s at = fr_grown_base(plant, i);
+            g_array_append_val(growth->fallen[worker], at);
+        }
+    }
+    free_cells(growth, plant, has_fallen);
+    remember_wood(plant, params, has_fallen, pipes);
+    number_axes(plant, has_fallen, axis_of);
+    compact_buds(plant, has_fallen);
+    compact_nodes(plant, has_fallen, axis_of, node_of);
+    compact_axes(growth, plant, axis_of, node_of);
+    renumber_buds(plant, axis_of, node_of);
+}
+
+void fr_growth_shed(FrGrowth *growth, FrGrownPlant *plant, int worker) {
     const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
     uint32_t nodes = plant->nodes.count;
     if (params->shed == FR_SHED_NONE || nodes == 0) {
         return;
     }
-    size_t numbers = (size_t)(nodes + plant->axis_count) * sizeof(uint32_t);
-    char *memory =
-        fr_scratch_take(scratch, nodes * (sizeof(Crown) + sizeof(double) + 1) + numbers + 64);
-    double *pipes = (double *)(void *)memory;
-    Crown *crowns = (Crown *)(void *)(pipes + nodes);
-    uint32_t *node_of = (uint32_t *)(void *)(crowns + nodes), *axis_of = node_of + nodes;
-    uint8_t *has_fallen = (uint8_t *)(axis_of + plant->axis_count);
+    Crown *crowns =
+        fr_scratch_take(&growth->scratch[worker], nodes * (sizeof(Crown) + sizeof(uint8_t)));
+    uint8_t *has_fallen = (uint8_t *)(crowns + nodes);
     count_crowns(plant, params, crowns);
-    plant->shed = mark(growth, plant, crowns, has_fallen);
-    if (plant->shed == 0) {
-        return;
+    if (mark(growth, plant, crowns, has_fallen) > 0) {
+        fr_growth_drop(growth, plant, has_fallen, worker);
     }
-    free_cells(growth, plant, has_fallen);
-    remember_wood(plant, params, has_fallen, pipes);
-    number_axes(plant, has_fallen, axis_of);
-    compact_nodes(plant, has_fallen, axis_of, node_of);
-    compact_axes(growth, plant, axis_of, node_of);
-    compact_buds(plant, axis_of, node_of);
 }

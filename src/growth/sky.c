@@ -230,7 +230,8 @@ static void sum_up(void *data, size_t begin, size_t end, int worker) {
         }
         FrLiveBud *bud = looking->buds[i].bud;
         float length = glms_vec3_norm(sum);
-        bud->light = fminf(light, 1);
+        bud->light = smaller(light, 1);
+        bud->slope = 1;
         bud->brightest = length > 1e-6f ? glms_vec3_scale(sum, 1 / length) : (vec3s){0};
     }
 }

@@ -35,8 +35,9 @@ static void add_around(FrGrownPlant *plant, FrLiveBud apex, uint32_t node, uint3
         bud->axis = apex.axis;
         bud->direction = glms_vec3_normalize(
             glms_vec3_add(glms_vec3_scale(apex.direction, cosine), glms_vec3_scale(out, sine)));
-        bud->side = glms_vec3_normalize(
-            glms_vec3_sub(glms_vec3_scale(apex.direction, sine), glms_vec3_scale(out, cosine)));
+        // Divergence counts from across the plane of the two axes, so that buds that stand in two
+        // rows make a level spray.
+        bud->side = glms_vec3_normalize(glms_vec3_cross(apex.direction, out));
         bud->light = apex.light;
         bud->brightest = apex.brightest;
         bud->state = FR_LIVE_ASLEEP;

@@ -105,13 +105,10 @@ static void commit_plants(void *data, size_t begin, size_t end, int worker) {
 }
 
 static void begin_plants(void *data, size_t begin, size_t end, int worker) {
-    (void)worker;
     FrGrowth *growth = data;
     for (size_t p = begin; p < end; p++) {
         FrGrownPlant *plant = &growth->plants[p];
         plant->born = plant->shed = plant->collisions = plant->contested = 0;
-        const FrReadySpecies *species = fr_species_of(growth, plant);
-        bool is_waiting = growth->step <= (uint64_t)species->params.start;
         for (uint32_t b = 0; b < plant->bud_count; b++) {
             FrLiveBud *bud = &plant->buds[b];
             if (bud->is_reached) { // the published rule: dies with the particle
@@ -119,11 +116,8 @@ static void begin_plants(void *data, size_t begin, size_t end, int worker) {
                 plant->axes[bud->axis].is_growing = false;
             }
             bud->is_reached = 0;
-            bud->shoot = bud->state == FR_LIVE_GROWING && !is_waiting;
-            if (bud->shoot > 0) {
-                bud->length = (float)fr_growth_length(growth, plant, bud);
-            }
         }
+        fr_growth_fates(growth, plant, worker);
     }
 }
 
@@ -139,7 +133,7 @@ static void end_plants(void *data, size_t begin, size_t end, int worker) {
             }
         }
         plant->bud_count = left;
-        fr_growth_shed(growth, plant, &growth->scratch[worker]);
+        fr_growth_shed(growth, plant, worker);
     }
 }
 
@@ -147,8 +141,12 @@ static void room_for_workers(FrGrowth *growth, const FrContext *context) {
     int threads = fr_pool_threads(context->pool);
     if (threads > growth->scratch_count) {
         growth->scratch = g_renew(FrScratch, growth->scratch, threads);
+        growth->drop_scratch = g_renew(FrScratch, growth->drop_scratch, threads);
+        growth->fallen = g_renew(GArray *, growth->fallen, threads);
         for (; growth->scratch_count < threads; growth->scratch_count++) {
             growth->scratch[growth->scratch_count] = (FrScratch){0};
+            growth->drop_scratch[growth->scratch_count] = (FrScratch){0};
+            growth->fallen[growth->scratch_count] = g_array_new(FALSE, FALSE, sizeof(vec3s));
         }
     }
 }
@@ -240,6 +238,7 @@ FrStatus fr_growth_step(FrGrowth *growth, const FrContext *context) {
     make_shoots(growth, context);
     fr_growth_reach_particles(growth);
     fr_parallel_for(context->pool, growth->plant_count, 1, end_plants, growth, NULL);
+    fr_growth_recast(growth, context);
     growth->seconds = (double)(g_get_monotonic_time() - begin) * 1e-6;
     return FR_OK;
 }

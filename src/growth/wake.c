@@ -23,7 +23,8 @@ void fr_growth_wake(const FrGrowth *growth, FrGrownPlant *plant) {
     for (uint32_t i = 0; i < plant->bud_count; i++) {
         FrLiveBud *bud = &plant->buds[i];
         bud->age = (uint16_t)MIN(bud->age + 1u, UINT16_MAX);
-        if (bud->state != FR_LIVE_ASLEEP) {
+        if (bud->state != FR_LIVE_ASLEEP || params->fate == FR_FATE_FLUX ||
+            params->fate == FR_FATE_PRIORITY) {
             continue;
         }
         if (bud->age > params->patience) {
