@@ -127,6 +127,20 @@ static void compact_nodes(FrGrownPlant *plant, const uint8_t *has_fallen, const 
     nodes->count = left;
 }
 
+/// Where only the outer part of an axis falls, it ends further down.
+static void shorten_axes(FrGrownPlant *plant, const uint8_t *has_fallen) {
+    for (uint32_t a = 0; a < plant->axis_count; a++) {
+        FrGrownAxis *axis = &plant->axes[a];
+        if (axis->first == FR_NONE || has_fallen[axis->first]) {
+            continue;
+        }
+        while (has_fallen[axis->last]) {
+            axis->last = plant->nodes.parent[axis->last];
+            axis->internodes--;
+        }
+    }
+}
+
 /// An axis goes with its first internode, or with its bearer before it has any.
 static void number_axes(const FrGrownPlant *plant, const uint8_t *has_fallen, uint32_t *axis_of) {
     uint32_t left = 0;
@@ -134,17 +148,6 @@ static void number_axes(const FrGrownPlant *plant, const uint8_t *has_fallen, ui
         const FrGrownAxis *axis = &plant->axes[a];
         uint32_t node = axis->first != FR_NONE ? axis->first : axis->bearer;
         axis_of[a] = node != FR_NONE && has_fallen[node] ? FR_NONE : left++;
-    }
-}
-
-/// The last internode that is left of an axis, and how many are.
-static void find_end(const FrGrownPlant *plant, uint32_t number, FrGrownAxis *axis) {
-    axis->internodes = 0;
-    for (uint32_t i = axis->first; i < plant->nodes.count; i++) {
-        if (plant->nodes.axis[i] == number) {
-            axis->last = i;
-            axis->internodes++;
-        }
     }
 }
 
@@ -161,11 +164,7 @@ static void compact_axes(FrGrowth *growth, FrGrownPlant *plant, const uint32_t *
         }
         axis.bearer = axis.bearer == FR_NONE ? FR_NONE : node_of[axis.bearer];
         axis.first = axis.first == FR_NONE ? FR_NONE : node_of[axis.first];
-        if (axis.first != FR_NONE && node_of[axis.last] == FR_NONE) {
-            find_end(plant, left, &axis);
-        } else if (axis.first != FR_NONE) {
-            axis.last = node_of[axis.last];
-        }
+        axis.last = axis.last == FR_NONE ? FR_NONE : node_of[axis.last];
         if (axis.owner != FR_NONE) {
             growth->owners[axis.owner].axis = left;
             growth->owners[axis.owner].bearer = axis.bearer;
@@ -219,6 +218,7 @@ void fr_growth_drop(FrGrowth *growth, FrGrownPlant *plant, const uint8_t *has_fa
     free_cells(growth, plant, has_fallen);
     remember_wood(plant, params, has_fallen, pipes);
     number_axes(plant, has_fallen, axis_of);
+    shorten_axes(plant, has_fallen);
     compact_buds(plant, has_fallen);
     compact_nodes(plant, has_fallen, axis_of, node_of);
     compact_axes(growth, plant, axis_of, node_of);

@@ -140,8 +140,14 @@ static void cast_layer(const Cast *cast, const int voxel[3], int z) {
             shadows->shade + ((size_t)z * (size_t)cells[1] + (size_t)y) * (size_t)cells[0];
         const uint32_t *table =
             shadows->table[layer] + (y - voxel[1] + reach) * (2 * reach + 1) - voxel[0] + reach;
-        for (int x = left; x <= right; x++) {
-            row[x] += cast->is_taken ? 0U - table[x] : table[x];
+        if (cast->is_taken) {
+            for (int x = left; x <= right; x++) {
+                row[x] -= table[x];
+            }
+        } else {
+            for (int x = left; x <= right; x++) {
+                row[x] += table[x];
+            }
         }
     }
 }
@@ -287,9 +293,10 @@ static double light_at(const FrShadows *shadows, const double place[3]) {
     double part[3], corners[8];
     int low[3];
     for (int axis = 0; axis < 3; axis++) {
-        double at = fmin(fmax(place[axis], -0x1.0p30), 0x1.0p30 - 1);
-        low[axis] = (int)floor(at);
-        part[axis] = at - floor(at);
+        double at = place[axis] > -0x1.0p30 ? place[axis] : -0x1.0p30; // and what is no number
+        at = at < 0x1.0p30 - 1 ? at : 0x1.0p30 - 1;
+        low[axis] = (int)at - (at < (double)(int)at);
+        part[axis] = at - (double)low[axis];
     }
     corners_of(shadows, low, corners);
     double sum = 0;
