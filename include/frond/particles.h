@@ -22,12 +22,13 @@ typedef struct FrParticles {
     float *x, *y, *z;
     float *influence, *kill; ///< as of FrParticle
     float widest_influence, widest_kill;
+    bool has_own; ///< some have an influence or a kill radius of their own
     uint8_t *is_dead;
     FrParticle *directions; ///< those with w other than 1
     uint32_t direction_count;
     float origin[3], cell;
     int size[3];     ///< cells along each axis
-    uint32_t *start; ///< first particle of each cell, x fastest; one more at the end
+    uint32_t *start; ///< first particle of each cell, x fastest; two more at the end
 } FrParticles;
 
 /// Particles [begin, end) of the columns.
@@ -40,6 +41,8 @@ enum { FR_MAX_RUNS = 1024 };
 /// `reach` is the radius that is mostly asked for, m.
 FR_API FrParticles *fr_particles_new(const FrParticle *particles, uint32_t count, float reach);
 FR_API void fr_particles_free(FrParticles *particles);
+/// Takes the dead out; kept[i] becomes the old index of particle i, for as many as are left.
+FR_API void fr_particles_compact(FrParticles *particles, uint32_t *kept);
 /// Runs that hold all within `radius` of a point, and some more. At most FR_MAX_RUNS; cells so much
 /// smaller than the radius are not made.
 FR_API uint32_t fr_particles_near(const FrParticles *particles, vec3s at, float radius,

@@ -39,6 +39,9 @@ static void find_nearest(void *data, size_t begin, size_t end, int worker) {
     FrRun runs[FR_MAX_RUNS];
     for (size_t b = begin; b < end; b++) {
         const FrLiveBudAt *bud = &attracting->buds[b];
+        if (bud->params->fate == FR_FATE_COLONIZE) {
+            continue;
+        }
         float widest = fmaxf(bud->influence, particles->widest_influence);
         uint32_t count = fr_particles_near(particles, bud->world, widest, runs);
         for (uint32_t r = 0; r < count; r++) {
@@ -126,6 +129,9 @@ static void sum_up(void *data, size_t begin, size_t end, int worker) {
     const Attracting *attracting = data;
     for (size_t b = begin; b < end; b++) {
         const FrLiveBudAt *bud = &attracting->buds[b];
+        if (bud->params->fate == FR_FATE_COLONIZE) {
+            continue;
+        }
         vec3s far = towards_directions(attracting->growth->particles, bud->world);
         Pull pull = pull_of(attracting, bud);
         vec3s nearest = far, all = far;
@@ -165,7 +171,11 @@ void fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count
                        const FrContext *context) {
     enum { GRAIN = 64 };
     FrParticles *particles = growth->particles;
-    if (particles == NULL) {
+    bool is_wanted = false;
+    for (uint32_t b = 0; b < count; b++) {
+        is_wanted |= buds[b].params->fate != FR_FATE_COLONIZE;
+    }
+    if (particles == NULL || !is_wanted) {
         return;
     }
     Attracting attracting = {.growth = growth, .buds = buds};

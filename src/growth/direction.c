@@ -88,13 +88,17 @@ vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, con
     const FrGrownAxis *axis = &plant->axes[bud->axis];
     const FrOrderParams *order = fr_order_of(species, bud->row);
     vec3s sum = bud->direction;
-    if (params->turning == FR_TURN_PART) {
+    if (params->fate == FR_FATE_COLONIZE) { // its direction is already that of its particles
+        sum = glms_vec3_add(sum, glms_vec3_scale(growth->up, (float)params->gravitropism));
+    } else if (params->turning == FR_TURN_PART) {
         sum = turned_part(growth, params, bud);
     } else {
         sum = glms_vec3_add(sum, glms_vec3_scale(bud->brightest, (float)params->phototropism));
         sum = glms_vec3_add(sum, gravity_pull(growth, params, order, axis, bud->direction));
     }
-    sum = glms_vec3_add(sum, glms_vec3_scale(bud->attraction, (float)params->attraction));
+    if (params->fate != FR_FATE_COLONIZE) {
+        sum = glms_vec3_add(sum, glms_vec3_scale(bud->attraction, (float)params->attraction));
+    }
     if (species->wander > 0) {
         sum = glms_vec3_add(
             sum, chance_across(bud->key, FR_CHANCE_TURN, axis->internodes, bud, species->wander));

@@ -46,7 +46,7 @@ typedef struct FrLiveBud {
     uint8_t row;        ///< order of the species that its axis is built by
     uint8_t shoot;      ///< internodes to make in this step
     uint8_t is_relay;   ///< follows an ended axis
-    uint8_t is_lost;    ///< lost its cells to another bud
+    uint8_t is_resting; ///< for a stronger apex ahead of it, in this step
     uint8_t is_reached; ///< has reached a particle
 } FrLiveBud;
 
@@ -83,6 +83,7 @@ typedef struct FrGrownPlant {
     uint32_t axis_count, axis_capacity;
     FrLiveBud *buds;
     uint32_t bud_count, bud_capacity;
+    uint8_t is_drawn;                           ///< colonize: particles have drawn it
     uint8_t max_order;                          ///< of its axes
     bool is_left_out;                           ///< its seed has no place to stand
     uint32_t first_proposal, proposal_count;    ///< in this round
@@ -154,9 +155,10 @@ struct FrGrowth {
     FrLight *light; ///< borrowed, NULL: that of the parameters
     const FrLamp *lamps;
     uint32_t lamp_count;
-    FrParticles *particles; ///< NULL: none
-    FrShadows *shadows;     ///< that nodes cast; NULL: none yet
-    GArray **fallen;        ///< by worker: where fallen internodes cast shadows
+    FrParticles *particles;  ///< NULL: none
+    struct FrColony *colony; ///< of plants that colonize space; NULL: to be made anew
+    FrShadows *shadows;      ///< that nodes cast; NULL: none yet
+    GArray **fallen;         ///< by worker: where fallen internodes cast shadows
     FrGrownPlant *plants;
     uint32_t plant_count;
     FrOwner *owners; ///< by number in the voxels
@@ -202,6 +204,11 @@ FrStatus fr_growth_strew_particles(FrGrowth *growth, const FrContext *context);
 void fr_growth_fill_envelope(const FrGrowth *growth, const FrGrownPlant *plant, GArray *particles);
 /// Kills what the new nodes of this step have reached.
 void fr_growth_reach_particles(FrGrowth *growth);
+typedef struct FrColony FrColony;
+
+void fr_colony_free(FrColony *colony);
+/// Buds where particles draw the nodes of plants that colonize space.
+void fr_growth_colonize(FrGrowth *growth, const FrContext *context);
 /// Turns buds towards their particles.
 void fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
                        const FrContext *context);
@@ -263,7 +270,14 @@ void fr_growth_sprout(const FrGrowth *growth, FrGrownPlant *plant, uint32_t inde
 /// Makes a sleeping bud the apex of a new axis.
 void fr_growth_wake_bud(FrGrownPlant *plant, FrLiveBud *bud, uint64_t step);
 /// Ages all buds and wakes those that may.
-void fr_growth_wake(const FrGrowth *growth, FrGrownPlant *plant);
+void fr_growth_wake(const FrGrowth *growth, FrGrownPlant *plant, FrScratch *scratch);
+
+// ---- auxin.c, honda.c -------------------------------------------------------------------------
+/// Auxin that reaches each node; in the scratch memory.
+double *fr_growth_auxin(const FrGrownPlant *plant, const FrSpeciesParams *params,
+                        FrScratch *scratch);
+/// Tells growing buds to rest for stronger ones ahead of them.
+void fr_growth_compete(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count);
 
 // ---- pipe.c -----------------------------------------------------------------------------------
 /// Wood of each node in tips: r^e over that of a tip.

@@ -1,6 +1,6 @@
-// The fate of buds: how many internodes each makes in a step, and how long they are. By auxin a growing
-// bud makes one, whose length follows the light; by vigour as many as its vigour pays for. What gets
-// too little of it falls (Palubicki et al. 2009, section 5).
+// The fate of buds: how many internodes each makes in a step, and how long they are. By auxin a
+// growing bud makes one, whose length follows the light; by vigour as many as its vigour pays for.
+// What gets too little of it falls (Palubicki et al. 2009, section 5).
 #include "growth/vigour.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 static void by_auxin(const FrGrowth *growth, FrGrownPlant *plant) {
     for (uint32_t b = 0; b < plant->bud_count; b++) {
         FrLiveBud *bud = &plant->buds[b];
-        bud->shoot = bud->state == FR_LIVE_GROWING;
+        bud->shoot = bud->state == FR_LIVE_GROWING && !bud->is_resting;
         if (bud->shoot > 0) {
             bud->length = (float)fr_growth_length(growth, plant, bud);
         }
@@ -45,7 +45,8 @@ static void by_vigour(FrGrowth *growth, FrGrownPlant *plant) {
         if (bud->state == FR_LIVE_ASLEEP && (vigour > 1 || bud->is_relay)) {
             fr_growth_wake_bud(plant, bud, growth->step);
         }
-        bud->shoot = bud->state == FR_LIVE_GROWING ? (uint8_t)vigour : 0;
+        bool grows = bud->state == FR_LIVE_GROWING && !bud->is_resting;
+        bud->shoot = grows ? (uint8_t)vigour : 0;
         if (bud->shoot > 0) {
             bud->length = (float)(params->step * vigour / bud->shoot);
             fr_growth_look_around(growth, plant, bud);

@@ -45,6 +45,8 @@ static void take_species(FrGrowth *growth, const FrGrowthSetup *setup) {
     growth->cell_stride = 1;
     fr_shadows_free(growth->shadows); // made anew as the parameters say
     growth->shadows = NULL;
+    fr_colony_free(growth->colony);
+    growth->colony = NULL;
     growth->proposal_capacity = 0;
     growth->species = g_new(FrReadySpecies, setup->species_count);
     for (uint32_t i = 0; i < setup->species_count; i++) {
@@ -159,6 +161,7 @@ void fr_growth_drop_state(FrGrowth *growth) {
     fr_voxels_free(growth->voxels);
     fr_particles_free(growth->particles);
     fr_shadows_free(growth->shadows);
+    fr_colony_free(growth->colony);
     g_free(growth->plants);
     g_free(growth->owners);
 }
@@ -259,6 +262,8 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     if (status != FR_OK) {
         return status;
     }
+    fr_colony_free(growth->colony); // made anew with the new seeds
+    growth->colony = NULL;
     uint32_t first = growth->plant_count;
     growth->plants = g_renew(FrGrownPlant, growth->plants, first + count);
     memset(growth->plants + first, 0, count * sizeof *growth->plants);

@@ -1,6 +1,6 @@
-// Vigour shared out by rank: the priority model of Palubicki et al. 2009, section 5. All that stands
-// on an axis, its apex and its branches and buds, is ranked by mean light; what is first has weight
-// `rank_first`, which falls to `rank_last` over the first `rank_part` of the ranks.
+// Vigour shared out by rank: the priority model of Palubicki et al. 2009, section 5. All that
+// stands on an axis, its apex and its branches and buds, is ranked by mean light; what is first has
+// weight `rank_first`, which falls to `rank_last` over the first `rank_part` of the ranks.
 #include "growth/vigour.h"
 
 #include <math.h>

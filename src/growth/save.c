@@ -26,6 +26,7 @@ static void put_plant(GByteArray *out, const FrGrownPlant *plant) {
     put_count(out, plant->seed.species);
     put_count(out, plant->is_left_out);
     put_count(out, plant->max_order);
+    put_count(out, plant->is_drawn);
     put_count(out, nodes->count);
     put_count(out, plant->axis_count);
     put_count(out, plant->bud_count);
@@ -159,13 +160,14 @@ static bool buds_are_right(const FrGrowth *growth, const FrGrownPlant *plant) {
 }
 
 static bool take_plant(FrBytesReader *reader, const FrGrowth *growth, FrGrownPlant *plant) {
-    uint64_t species, is_left_out, max_order, nodes, axes, buds;
+    uint64_t species, is_left_out, max_order, is_drawn, nodes, axes, buds;
     if (!fr_bytes_take(reader, plant->seed.at, sizeof plant->seed.at) ||
         !fr_bytes_take(reader, &plant->seed.id, sizeof plant->seed.id) ||
         growth->species_count == 0 ||
         !fr_bytes_take_count(reader, growth->species_count - 1, &species) ||
         !fr_bytes_take_count(reader, 1, &is_left_out) ||
         !fr_bytes_take_count(reader, 255, &max_order) ||
+        !fr_bytes_take_count(reader, 1, &is_drawn) ||
         !fr_bytes_take_count(reader, reader->left, &nodes) ||
         !fr_bytes_take_count(reader, reader->left, &axes) ||
         !fr_bytes_take_count(reader, reader->left, &buds) ||
@@ -175,6 +177,7 @@ static bool take_plant(FrBytesReader *reader, const FrGrowth *growth, FrGrownPla
     plant->seed.species = (uint32_t)species;
     plant->is_left_out = (uint8_t)is_left_out;
     plant->max_order = (uint8_t)max_order;
+    plant->is_drawn = (uint8_t)is_drawn;
     plant->key = fr_key_child(fr_key_root((uint64_t)growth->params.seed), plant->seed.id);
     fr_grown_reserve(plant, (uint32_t)nodes, (uint32_t)axes, (uint32_t)buds);
     FrGrownNodes *into = &plant->nodes;
@@ -283,6 +286,8 @@ static void exchange(FrGrowth *growth, FrGrowth *read) {
     read->voxels = old.voxels;
     read->shadows = old.shadows;
     growth->shadows = NULL; // cast anew by the next step
+    read->colony = old.colony;
+    growth->colony = NULL;
     growth->voxels = voxels;
     FrParticles *particles = growth->particles;
     growth->particles = read->particles;

@@ -33,6 +33,8 @@ FrStatus fr_growth_add_particles(FrGrowth *growth, const FrParticle *particles, 
             all[old + i] = particles[i];
         }
         fr_particles_free(growth->particles);
+        fr_colony_free(growth->colony);
+        growth->colony = NULL;
         growth->particles =
             fr_particles_new(all, (uint32_t)(old + count), widest_influence(growth));
     }
@@ -94,7 +96,7 @@ void fr_growth_reach_particles(FrGrowth *growth) {
     for (uint32_t p = 0; p < growth->plant_count; p++) {
         const FrGrownPlant *plant = &growth->plants[p];
         const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
-        if (params->particle_rule != FR_PARTICLE_SPACE) {
+        if (params->particle_rule != FR_PARTICLE_SPACE || params->fate == FR_FATE_COLONIZE) {
             continue;
         }
         for (uint32_t i = plant->nodes.count - plant->born; i < plant->nodes.count; i++) {

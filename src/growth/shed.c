@@ -228,7 +228,7 @@ void fr_growth_drop(FrGrowth *growth, FrGrownPlant *plant, const uint8_t *has_fa
 void fr_growth_shed(FrGrowth *growth, FrGrownPlant *plant, int worker) {
     const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
     uint32_t nodes = plant->nodes.count;
-    if (params->shed == FR_SHED_NONE || nodes == 0) {
+    if (params->shed == FR_SHED_NONE || params->fate == FR_FATE_COLONIZE || nodes == 0) {
         return;
     }
     Crown *crowns =

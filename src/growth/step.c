@@ -88,6 +88,10 @@ static void commit(FrGrowth *growth, const FrProposal *proposal) {
     plant->max_order = MAX(plant->max_order, plant->axes[bud->axis].order);
     plant->born++;
     bud->node = node;
+    if (species->params.fate == FR_FATE_COLONIZE) {
+        bud->state = FR_LIVE_DONE; // the next step tells where it goes on
+        return;
+    }
     fr_growth_turn(bud, proposal->direction, (float)species->params.twist);
     fr_growth_sprout(growth, plant, proposal->bud, node);
 }
@@ -125,7 +129,7 @@ static void end_plants(void *data, size_t begin, size_t end, int worker) {
     FrGrowth *growth = data;
     for (size_t p = begin; p < end; p++) {
         FrGrownPlant *plant = &growth->plants[p];
-        fr_growth_wake(growth, plant);
+        fr_growth_wake(growth, plant, &growth->scratch[worker]);
         uint32_t left = 0;
         for (uint32_t b = 0; b < plant->bud_count; b++) {
             if (plant->buds[b].state != FR_LIVE_DONE) {
@@ -179,11 +183,13 @@ static uint32_t gather_live(FrGrowth *growth, uint32_t *count) {
 }
 
 static FrStatus sense(FrGrowth *growth, const FrContext *context) {
+    fr_growth_colonize(growth, context);
     uint32_t count, growing = gather_live(growth, &count);
     gint64 begin = g_get_monotonic_time();
     FrStatus status = fr_growth_light(growth, growth->live, count, context);
     growth->light_seconds = (double)(g_get_monotonic_time() - begin) * 1e-6;
     fr_growth_attract(growth, growth->live, growing, context);
+    fr_growth_compete(growth, growth->live, growing);
     return status;
 }
 

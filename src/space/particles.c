@@ -2,40 +2,36 @@
 #include "frond/particles.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { MAX_CELLS = 1 << 24 };
 
-typedef struct Sorting {
-    FrParticle particle;
-    uint32_t cell;
-} Sorting;
-
-static int compare_float(float a, float b) {
-    return a < b ? -1 : a > b;
-}
-
-static int compare(const void *a, const void *b) {
-    const Sorting *one = a, *other = b;
-    if (one->cell != other->cell) {
-        return one->cell < other->cell ? -1 : 1;
-    }
+/// Within a cell by place, then by what else is known: the order does not depend on how they came.
+static bool comes_before(const FrParticle *a, const FrParticle *b) {
     for (int axis = 0; axis < 3; axis++) {
-        int order = compare_float(one->particle.at.raw[axis], other->particle.at.raw[axis]);
-        if (order != 0) {
-            return order;
+        if (a->at.raw[axis] != b->at.raw[axis]) {
+            return a->at.raw[axis] < b->at.raw[axis];
         }
     }
-    int order = compare_float(one->particle.influence, other->particle.influence);
-    return order != 0 ? order : compare_float(one->particle.kill, other->particle.kill);
+    return a->influence != b->influence ? a->influence < b->influence : a->kill < b->kill;
+}
+
+static void sort_cell(FrParticle *particles, uint32_t count) {
+    for (uint32_t i = 1; i < count; i++) {
+        FrParticle moving = particles[i];
+        uint32_t k = i;
+        for (; k > 0 && comes_before(&moving, &particles[k - 1]); k--) {
+            particles[k] = particles[k - 1];
+        }
+        particles[k] = moving;
+    }
 }
 
 /// Cells of half the reach, or wider where there would be too many.
-static void lay_grid(FrParticles *grid, const Sorting *places, uint32_t count, float reach) {
+static void lay_grid(FrParticles *grid, const FrParticle *places, uint32_t count, float reach) {
     float low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
         for (int axis = 0; axis < 3; axis++) {
-            float at = places[i].particle.at.raw[axis];
+            float at = places[i].at.raw[axis];
             low[axis] = i == 0 ? at : fminf(low[axis], at);
             high[axis] = i == 0 ? at : fmaxf(high[axis], at);
         }
@@ -54,12 +50,54 @@ static void lay_grid(FrParticles *grid, const Sorting *places, uint32_t count, f
     } while (cells > MAX_CELLS);
 }
 
-static int cell_along(const FrParticles *grid, float at, int axis) {
-    float where = floorf((at - grid->origin[axis]) / grid->cell);
-    return (int)fminf(fmaxf(where, 0), (float)(grid->size[axis] - 1));
+// Without the care of fmaxf() for what is no number: places are finite.
+static inline float larger(float a, float b) {
+    return a > b ? a : b;
 }
 
-static void fill_columns(FrParticles *grid, const Sorting *places) {
+static int cell_along(const FrParticles *grid, float at, int axis) {
+    float where = (at - grid->origin[axis]) / grid->cell;
+    int last = grid->size[axis] - 1;
+    if (!(where > 0)) {
+        return 0;
+    }
+    return where < (float)last ? (int)where : last;
+}
+
+static uint32_t cell_of(const FrParticles *grid, const FrParticle *particle) {
+    int at[3];
+    for (int axis = 0; axis < 3; axis++) {
+        at[axis] = cell_along(grid, particle->at.raw[axis], axis);
+    }
+    return (uint32_t)((at[2] * grid->size[1] + at[1]) * grid->size[0] + at[0]);
+}
+
+static size_t cell_count(const FrParticles *grid) {
+    return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2];
+}
+
+/// Brings places into the order of cells: counted, then each put where its cell begins.
+static void sort_places(FrParticles *grid, const FrParticle *places, FrParticle *sorted) {
+    size_t cells = cell_count(grid);
+    uint32_t *cell = g_new(uint32_t, grid->count + 1);
+    grid->start = g_new0(uint32_t, cells + 2);
+    for (uint32_t i = 0; i < grid->count; i++) {
+        cell[i] = cell_of(grid, &places[i]);
+        grid->start[cell[i] + 2]++;
+    }
+    for (size_t k = 0; k < cells; k++) {
+        grid->start[k + 2] += grid->start[k + 1];
+    }
+    for (uint32_t i = 0; i < grid->count; i++) {
+        sorted[grid->start[cell[i] + 1]++] = places[i];
+    }
+    for (size_t k = 0; k < cells; k++) {
+        sort_cell(sorted + grid->start[k], grid->start[k + 1] - grid->start[k]);
+    }
+    g_free(cell);
+}
+
+static void fill_columns(FrParticles *grid, const FrParticle *places) {
     uint32_t count = grid->count;
     grid->x = g_new(float, count + 1);
     grid->y = g_new(float, count + 1);
@@ -67,10 +105,8 @@ static void fill_columns(FrParticles *grid, const Sorting *places) {
     grid->influence = g_new(float, count + 1);
     grid->kill = g_new(float, count + 1);
     grid->is_dead = g_new0(uint8_t, count + 1);
-    size_t cells = (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2];
-    grid->start = g_new0(uint32_t, cells + 1);
     for (uint32_t i = 0; i < count; i++) {
-        const FrParticle *particle = &places[i].particle;
+        const FrParticle *particle = &places[i];
         grid->x[i] = particle->at.x;
         grid->y[i] = particle->at.y;
         grid->z[i] = particle->at.z;
@@ -78,36 +114,51 @@ static void fill_columns(FrParticles *grid, const Sorting *places) {
         grid->kill[i] = particle->kill;
         grid->widest_influence = fmaxf(grid->widest_influence, particle->influence);
         grid->widest_kill = fmaxf(grid->widest_kill, particle->kill);
-        grid->start[places[i].cell + 1]++;
-    }
-    for (size_t cell = 0; cell < cells; cell++) {
-        grid->start[cell + 1] += grid->start[cell];
+        grid->has_own |= particle->influence > 0 || particle->kill >= 0;
     }
 }
 
 FrParticles *fr_particles_new(const FrParticle *particles, uint32_t count, float reach) {
     FrParticles *grid = g_new0(FrParticles, 1);
-    Sorting *places = g_new(Sorting, count + 1);
+    FrParticle *places = g_new(FrParticle, count + 1), *sorted = g_new(FrParticle, count + 1);
     grid->directions = g_new(FrParticle, count + 1);
     for (uint32_t i = 0; i < count; i++) {
         if (particles[i].w == 1) {
-            places[grid->count++] = (Sorting){.particle = particles[i]};
+            places[grid->count++] = particles[i];
         } else {
             grid->directions[grid->direction_count++] = particles[i];
         }
     }
     lay_grid(grid, places, grid->count, reach);
-    for (uint32_t i = 0; i < grid->count; i++) {
-        int at[3];
-        for (int axis = 0; axis < 3; axis++) {
-            at[axis] = cell_along(grid, places[i].particle.at.raw[axis], axis);
-        }
-        places[i].cell = (uint32_t)((at[2] * grid->size[1] + at[1]) * grid->size[0] + at[0]);
-    }
-    qsort(places, grid->count, sizeof *places, compare);
-    fill_columns(grid, places);
+    sort_places(grid, places, sorted);
+    fill_columns(grid, sorted);
     g_free(places);
+    g_free(sorted);
     return grid;
+}
+
+void fr_particles_compact(FrParticles *grid, uint32_t *kept) {
+    uint32_t left = 0, i = 0;
+    size_t cells = cell_count(grid);
+    for (size_t cell = 0; cell < cells; cell++) {
+        uint32_t end = grid->start[cell + 1];
+        grid->start[cell] = left;
+        for (; i < end; i++) {
+            if (grid->is_dead[i]) {
+                continue;
+            }
+            grid->x[left] = grid->x[i];
+            grid->y[left] = grid->y[i];
+            grid->z[left] = grid->z[i];
+            grid->influence[left] = grid->influence[i];
+            grid->kill[left] = grid->kill[i];
+            grid->is_dead[left] = 0;
+            kept[left++] = i;
+        }
+    }
+    grid->start[cells] = left;
+    grid->count = left;
+    grid->dead_count = 0;
 }
 
 void fr_particles_free(FrParticles *particles) {
@@ -128,7 +179,7 @@ void fr_particles_free(FrParticles *particles) {
 /// How far `at` is from the nearest point of cells [cell, cell + 1) along an axis.
 static float away(const FrParticles *grid, float at, int cell, int axis) {
     float low = grid->origin[axis] + grid->cell * (float)cell;
-    return fmaxf(0, fmaxf(low - at, at - (low + grid->cell)));
+    return larger(0, larger(low - at, at - (low + grid->cell)));
 }
 
 uint32_t fr_particles_near(const FrParticles *grid, vec3s at, float radius, FrRun *runs) {
