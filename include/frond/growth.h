@@ -22,7 +22,9 @@
     X(VECTOR, min, "-100, -100, 0", -1000000, 1000000, "m", "", "lowest corner of the arena")      \
     X(VECTOR, max, "100, 100, 60", -1000000, 1000000, "m", "", "highest corner of the arena")      \
     X(VECTOR, gravity, "0, 0, -1", -1000, 1000, "", "", "direction in which things fall")          \
-    X(REAL, cell, "0.1", 0.001, 100, "m", "", "width of the cells that branches occupy")           \
+    X(REAL, cell, "0", 0, 100, "m", "",                                                            \
+      "width of the cells that branches occupy; 0: an eighth of the shortest internode of a "      \
+      "trunk, or wider in a wide arena")                                                           \
     X(CHOICE, light, "views", 0, 0, "", "views shadows full",                                      \
       "buds see sun and sky, or stand in shadows cast downwards, or all have full light")          \
     X(INTEGER, views, "20", 1, 64, "", "", "views: directions of the sky")                         \
@@ -109,8 +111,9 @@ typedef struct FrGrowth FrGrowth;
 FR_API FR_MUST_USE FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context,
                                           FrGrowth **growth);
 FR_API void fr_growth_free(FrGrowth *growth);
-/// Changes the world or the species in the middle: plants stay as they have grown. `cell` must stay
-/// as it is, and there must be as many species. On failure all stays as it was.
+/// Changes the world or the species in the middle: plants stay as they have grown. Cells and the
+/// lowest corner of the arena stay as they were, and there must be as many species. On failure all
+/// stays as it was.
 FR_API FR_MUST_USE FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup,
                                              const FrContext *context);
 /// Adds plants of one bud each. A seed outside the arena or inside an obstacle is left out with a

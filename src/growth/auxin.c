@@ -1,6 +1,6 @@
-// Auxin by chance (Stava, Pirk, Kratt, Chen, Měch, Deussen, Beneš 2014, Inverse Procedural Modelling of
-// Trees): each growing apex makes auxin, of which a part is left after each internode on its way
-// down; a bud wakes with probability light · exp(−auxin that reaches it).
+// Auxin by chance (Stava, Pirk, Kratt, Chen, Měch, Deussen, Beneš 2014, Inverse Procedural
+// Modelling of Trees): each growing apex makes auxin, of which a part is left after each internode
+// on its way down; a bud wakes with probability light · exp(−auxin that reaches it).
 #include "growth/engine.h"
 
 #include <math.h>

@@ -25,14 +25,14 @@ typedef struct Site {
 } Site;
 
 struct FrColony {
-    float *nearest;  ///< by particle: squared distance, −1 if it has been reached
-    uint32_t *site;  ///< its nearest: index into sites, FR_NONE
-    uint32_t count;  ///< particles
+    float *nearest;     ///< by particle: squared distance, −1 if it has been reached
+    uint32_t *site;     ///< its nearest: index into sites, FR_NONE
+    uint32_t count;     ///< particles
     GPtrArray *site_of; ///< by plant, GArray of uint32_t: site of its seed, then of its nodes
-    GArray *sites;   ///< Site, of all steps
-    GArray *pulls;   ///< Pull, by site
-    GArray *pulled;  ///< uint32_t: sites that are drawn in this step
-    uint32_t known;  ///< sites that particles have been compared with
+    GArray *sites;      ///< Site, of all steps
+    GArray *pulls;      ///< Pull, by site
+    GArray *pulled;     ///< uint32_t: sites that are drawn in this step
+    uint32_t known;     ///< sites that particles have been compared with
 };
 
 /// How a site is drawn, and what has grown there.
@@ -90,8 +90,7 @@ static void add_site(const FrGrowth *growth, FrColony *colony, uint32_t p, uint3
 }
 
 static bool is_colonizer(const FrGrowth *growth, const FrGrownPlant *plant) {
-    return !plant->is_left_out &&
-           fr_species_of(growth, plant)->params.fate == FR_FATE_COLONIZE;
+    return !plant->is_left_out && fr_species_of(growth, plant)->params.fate == FR_FATE_COLONIZE;
 }
 
 /// Plants in the order of their keys, which is not that of their seeds.
@@ -169,8 +168,9 @@ typedef struct Comparing {
 } Comparing;
 
 /// The plain case, without radii of particles' own, in a form that compilers turn into vectors.
-FR_LANES_CLONES static void compare_run(const FrParticles *particles, FrColony *colony, const Site *site,
-                        uint32_t index, uint32_t begin, uint32_t end) {
+FR_LANES_CLONES static void compare_run(const FrParticles *particles, FrColony *colony,
+                                        const Site *site, uint32_t index, uint32_t begin,
+                                        uint32_t end) {
     const float *restrict px = particles->x, *restrict py = particles->y;
     const float *restrict pz = particles->z;
     float *restrict nearest = colony->nearest;
@@ -211,8 +211,8 @@ static void compare_range(void *data, size_t begin, size_t end, int worker) {
     FrRun runs[FR_MAX_RUNS];
     for (uint32_t s = colony->known; s < colony->sites->len; s++) {
         const Site *site = &g_array_index(colony->sites, Site, s);
-        float widest = particles->has_own ? fmaxf(site->widest, particles->widest_influence)
-                                          : site->widest;
+        float widest =
+            particles->has_own ? fmaxf(site->widest, particles->widest_influence) : site->widest;
         widest = fmaxf(widest, fmaxf(sqrtf(site->kill), particles->widest_kill));
         uint32_t count = fr_particles_near(particles, site->at, widest, runs);
         for (uint32_t r = 0; r < count; r++) {

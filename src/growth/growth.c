@@ -11,29 +11,46 @@ static vec3s up_of(const FrGrowthParams *params) {
 }
 
 /// Cells that the longest internode of a species may cross.
-static double cells_crossed(const FrGrowthParams *params, const FrSpeciesParams *species) {
-    return sqrt(3) * fr_growth_longest(species) / params->cell + 4;
+static double cells_crossed(double cell, const FrSpeciesParams *species) {
+    return sqrt(3) * fr_growth_longest(species) / cell + 4;
 }
 
-static FrStatus check_setup(const FrGrowthSetup *setup, const FrContext *context) {
+/// Width of the cells that the setup asks for.
+static double cell_of(const FrGrowthSetup *setup) {
+    const FrGrowthParams *params = &setup->params;
+    double shortest = INFINITY, widest = 0;
+    for (uint32_t i = 0; i < setup->species_count; i++) {
+        const FrSpeciesParams *species = &setup->species[i].params;
+        double least = species->collide ? species->step : INFINITY;
+        shortest = MIN(shortest, least);
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        widest = MAX(widest, (double)params->max.raw[axis] - (double)params->min.raw[axis]);
+    }
+    double fits = widest / (FR_VOXELS_WIDTH - 1);
+    double wanted = isfinite(shortest) ? shortest / 8 : fits;
+    return params->cell > 0 ? params->cell : MAX(MAX(wanted, fits), 0.0001);
+}
+
+static FrStatus check_setup(const FrGrowthSetup *setup, double cell, const FrContext *context) {
     const FrGrowthParams *params = &setup->params;
     for (int axis = 0; axis < 3; axis++) {
         double size = (double)params->max.raw[axis] - (double)params->min.raw[axis];
-        if (!(size > 0) || size / params->cell >= FR_VOXELS_WIDTH) {
+        if (!(size > 0) || size / cell >= FR_VOXELS_WIDTH) {
             fr_diags_add(context->diags, FR_ERROR, "arena-cells", (FrSpan){0},
                          "the arena is %g m wide, but must be above 0 and below %d cells of %g m",
-                         size, FR_VOXELS_WIDTH, params->cell);
+                         size, FR_VOXELS_WIDTH, cell);
             return FR_ERR_DOCUMENT;
         }
     }
     for (uint32_t i = 0; i < setup->species_count; i++) {
         const FrSpeciesParams *species = &setup->species[i].params;
-        if (species->collide && cells_crossed(params, species) > FR_WALK_CELLS) {
+        if (species->collide && cells_crossed(cell, species) > FR_WALK_CELLS) {
             fr_diags_add(context->diags, FR_ERROR, "cell-step", (FrSpan){0},
                          "internodes of '%s' may become %g m long, which is too much for cells of "
                          "%g m; make `cell` larger or `collide` no",
                          setup->species[i].name == NULL ? "?" : setup->species[i].name,
-                         fr_growth_longest(species), params->cell);
+                         fr_growth_longest(species), cell);
             return FR_ERR_DOCUMENT;
         }
     }
@@ -54,7 +71,7 @@ static void take_species(FrGrowth *growth, const FrGrowthSetup *setup) {
         const FrSpeciesParams *params = &growth->species[i].params;
         if (params->collide) {
             growth->cell_stride =
-                MAX(growth->cell_stride, (uint32_t)cells_crossed(&setup->params, params));
+                MAX(growth->cell_stride, (uint32_t)cells_crossed(growth->voxels->cell, params));
         }
     }
 }
@@ -131,7 +148,8 @@ static FrStatus take_setup(FrGrowth *growth, const FrGrowthSetup *setup, const F
 
 FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context, FrGrowth **growth) {
     *growth = NULL;
-    FrStatus status = check_setup(setup, context);
+    double cell = cell_of(setup);
+    FrStatus status = check_setup(setup, cell, context);
     if (status != FR_OK) {
         return status;
     }
@@ -141,7 +159,7 @@ FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context, FrG
     for (int axis = 0; axis < 3; axis++) {
         origin[axis] = (double)setup->params.min.raw[axis];
     }
-    made->voxels = fr_voxels_new(origin, setup->params.cell);
+    made->voxels = fr_voxels_new(origin, cell);
     status = take_setup(made, setup, context);
     if (status == FR_OK) {
         status = fr_growth_strew_particles(made, context);
@@ -193,12 +211,11 @@ void fr_growth_free(FrGrowth *growth) {
 }
 
 FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup, const FrContext *context) {
-    FrStatus status = check_setup(setup, context);
+    FrStatus status = check_setup(setup, growth->voxels->cell, context);
     if (status != FR_OK) {
         return status;
     }
     FR_ASSERT(setup->species_count == growth->species_count);
-    FR_ASSERT(setup->params.cell == growth->params.cell);
     FrGrowth old = *growth;
     fr_voxels_clear_solid(growth->voxels);
     status = take_setup(growth, setup, context);

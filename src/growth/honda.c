@@ -40,8 +40,7 @@ static bool is_stronger(const FrLiveBud *a, const FrLiveBud *b, bool by_vigour) 
 static bool rests_for(const FrLiveBudAt *own, const FrLiveBudAt *other) {
     vec3s towards = glms_vec3_sub(other->world, own->world);
     double distance = (double)glms_vec3_norm(towards);
-    bool by_vigour =
-        own->params->fate == FR_FATE_FLUX || own->params->fate == FR_FATE_PRIORITY;
+    bool by_vigour = own->params->fate == FR_FATE_FLUX || own->params->fate == FR_FATE_PRIORITY;
     return own->bud != other->bud && distance <= own->params->apex_distance &&
            glms_vec3_dot(towards, own->bud->direction) > 0 &&
            is_stronger(other->bud, own->bud, by_vigour);

@@ -25,6 +25,14 @@ static bool is_in_arena(const FrGrowth *growth, const FrGrownPlant *plant, vec3s
     return true;
 }
 
+/// A trunk that begins outside of its envelope grows until it is within.
+static bool is_in_envelope(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud,
+                           vec3s from, vec3s to) {
+    const FrReadySpecies *species = fr_species_of(growth, plant);
+    return fr_envelope_holds(species, to, growth->up) ||
+           (plant->axes[bud->axis].order == 0 && !fr_envelope_holds(species, from, growth->up));
+}
+
 // ---- proposing --------------------------------------------------------------------------------
 
 /// Finds a free way, or says that there is none.
@@ -40,7 +48,7 @@ static void propose(const FrGrowth *growth, uint32_t index, bool is_again) {
         proposal->direction = fr_growth_direction(growth, plant, bud, trial);
         proposal->at = glms_vec3_add(from, glms_vec3_scale(proposal->direction, bud->length));
         if (is_in_arena(growth, plant, proposal->at) &&
-            fr_envelope_holds(species, proposal->at, growth->up) &&
+            is_in_envelope(growth, plant, bud, from, proposal->at) &&
             (!species->params.collide ||
              fr_growth_is_free(growth, proposal, cells_of(growth, index)))) {
             proposal->state = species->params.collide ? FR_PROPOSAL_ASKS : FR_PROPOSAL_WON;
