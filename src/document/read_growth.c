@@ -134,7 +134,8 @@ static void check_growth(FrReader *reader, uint32_t node, const FrGrowthParams *
     }
     for (int axis = 0; axis < 3; axis++) {
         double size = (double)params->max.raw[axis] - (double)params->min.raw[axis];
-        if (!(size > 0) || size / params->cell >= FR_VOXELS_WIDTH) {
+        bool is_wide = params->cell > 0 && size / params->cell >= FR_VOXELS_WIDTH;
+        if (!(size > 0) || is_wide) {
             fr_read_error(reader, "arena-cells", fr_read_value_place(reader, node, "max"),
                           "the arena is %g m wide, but must be above 0 and below %d cells of %g m",
                           size, FR_VOXELS_WIDTH, params->cell);

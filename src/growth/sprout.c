@@ -81,9 +81,7 @@ void fr_growth_sprout(const FrGrowth *growth, FrGrownPlant *plant, uint32_t inde
     if (has_ended) {
         plant->axes[apex.axis].is_growing = false;
         plant->buds[index].state = FR_LIVE_DONE;
-        if (axis->order < species->params.max_order) {
-            add_around(plant, apex, node, (uint32_t)order->relays,
-                       order->divergence * (axis->order + 1), species, apex.row, true);
-        }
+        add_around(plant, apex, node, (uint32_t)order->relays,
+                   order->divergence * (axis->order + 1), species, apex.row, true);
     }
 }

@@ -230,12 +230,35 @@ bool fr_growth_undo(FrGrowth *growth) {
     return true;
 }
 
+/// More than this a step cannot make.
+static FrStatus check_limits(const FrGrowth *growth, const FrContext *context) {
+    for (uint32_t p = 0; p < growth->plant_count; p++) {
+        const FrGrownPlant *plant = &growth->plants[p];
+        const FrReadySpecies *species = fr_species_of(growth, plant);
+        bool by_vigour =
+            species->params.fate == FR_FATE_FLUX || species->params.fate == FR_FATE_PRIORITY;
+        uint64_t most = by_vigour ? (uint64_t)species->params.shoot : 1;
+        uint64_t wanted =
+            fr_count_add(plant->nodes.count, fr_count_multiply(plant->bud_count, most));
+        FrStatus status = fr_limit_check(wanted, context->limits.nodes, "nodes", species->name,
+                                         (FrSpan){0}, context->diags);
+        if (status != FR_OK) {
+            return status;
+        }
+    }
+    return fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : FR_OK;
+}
+
 FrStatus fr_growth_step(FrGrowth *growth, const FrContext *context) {
+    FrStatus status = check_limits(growth, context);
+    if (status != FR_OK) {
+        return status;
+    }
     gint64 begin = g_get_monotonic_time();
     remember(growth);
     room_for_workers(growth, context);
     growth->step++;
-    FrStatus status = sense(growth, context);
+    status = sense(growth, context);
     if (status != FR_OK) {
         growth->step--;
         return status;

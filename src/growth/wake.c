@@ -21,7 +21,9 @@ static bool is_free(const FrGrowth *growth, const FrGrownPlant *plant, const FrL
 }
 
 void fr_growth_wake_bud(FrGrownPlant *plant, FrLiveBud *bud, uint64_t step) {
+    uint8_t order = plant->axes[bud->axis].order; // relays go on with the axis that has ended
     bud->axis = fr_grown_add_axis(plant, bud->node, bud->row, bud->key);
+    plant->axes[bud->axis].order = bud->is_relay ? order : plant->axes[bud->axis].order;
     plant->axes[bud->axis].birth = (uint16_t)MIN(step, UINT16_MAX);
     bud->state = FR_LIVE_GROWING;
     bud->is_relay = 0;
