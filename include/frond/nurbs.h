@@ -93,6 +93,14 @@ FR_API void fr_nurbs_curve_insert(FrNurbsCurve *curve, double knot);
 /// Gives two clamped curves of one degree on [0, 1] the same knots, by insertion.
 FR_API void fr_nurbs_curves_merge(FrNurbsCurve *a, FrNurbsCurve *b);
 
+/// Mean of the `degree` knots that a control point depends on: where it has its weight.
+FR_API double fr_nurbs_greville(const double *knots, uint32_t degree, uint32_t index);
+/// The bilinear Coons patch of four sides, as a net of bottom->count × left->count points: u runs
+/// along `bottom` and `top`, v along `left` and `right`. Opposite sides have the same knots, on
+/// [0, 1], all sides meet at the corners, and weights are 1.
+FR_API void fr_nurbs_coons(const FrNurbsCurve *bottom, const FrNurbsCurve *top,
+                           const FrNurbsCurve *left, const FrNurbsCurve *right,
+                           double (*points)[4]);
 /// Clamped knots for `count` points at the rising parameters `at`: averages of `degree` of them (de
 /// Boor), so that interpolation at `at` has a solution.
 FR_API void fr_nurbs_average_knots(const double *at, uint32_t count, uint32_t degree,

@@ -19,6 +19,8 @@ typedef enum FrNurbsJoin {
     FR_JOIN_SMOOTH,  ///< it shares three and knots are uniform: the same curvature too
 } FrNurbsJoin;
 
+enum { FR_MARGINS_SMOOTH, FR_MARGINS_EXACT };
+
 typedef enum FrNurbsFrames {
     FR_FRAMES_MINIMAL, ///< never twist about the branch
     FR_FRAMES_FRENET,  ///< turn with the osculating plane, as published; flip where a branch bends
@@ -78,6 +80,9 @@ enum { FR_SHARE_NO, FR_SHARE_EQUAL, FR_SHARE_NEAR };
       "what a branch shares with its parent: the fork, two points, three for one curvature")       \
     X(CHOICE, frames, "minimal", 0, 0, "", "minimal frenet", "how profiles turn along a branch")   \
     X(INTEGER, profile_degree, "3", 1, 3, "", "", "profiles: 1 keeps corners, 3 is smooth")        \
+    X(CHOICE, margins, "smooth", 0, 0, "", "smooth exact",                                         \
+      "halves of blades: through the rows of the outline, or Coons patches between the midrib "    \
+      "and the outline itself, teeth and all")                                                     \
     X(SWITCH, corners, "yes", 0, 1, "", "",                                                        \
       "more control points at bends that a surface would leave by more than a part of its radius") \
     X(SWITCH, caps, "yes", 0, 1, "", "", "close the ends of tubes")                                \

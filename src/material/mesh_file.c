@@ -1,5 +1,6 @@
 // Files of triangles: everything about them but assimp (mesh_file_assimp.c).
 #include "material/mesh_file.h"
+#include "material/nurbs_file.h"
 
 #include <cglm/struct.h>
 #include <math.h>
@@ -10,7 +11,7 @@
 /// Farther than this from the origin nothing of a plant stands, in metres.
 #define FARTHEST 1e6f
 
-static const char *const suffixes[] = {".obj", ".stl", ".gltf", ".glb"};
+static const char *const suffixes[] = {".obj", ".stl", ".gltf", ".glb", ".igs", ".iges"};
 
 static bool has_suffix(const char *name) {
     const char *dot = strrchr(name, '.');
@@ -44,7 +45,7 @@ bool fr_mesh_name_check(const char *name, FrSpan span, FrDiags *diags) {
     }
     if (!has_suffix(name)) {
         fr_diags_add(diags, FR_ERROR, "unknown-format", span,
-                     "'%.80s' is no file of triangles: .obj, .stl, .gltf or .glb", name);
+                     "'%.80s' is no file of triangles: .obj, .stl, .gltf, .glb or .igs", name);
         return false;
     }
     return true;
@@ -261,7 +262,10 @@ FrMeshFile *fr_mesh_file_load(const char *folder, const char *name, FrSpan span,
         if (*status == FR_OK && !check_numbers(path, name, span, context->diags)) {
             *status = FR_ERR_DOCUMENT;
         }
-        file = *status == FR_OK ? fr_mesh_file_import(path, name, span, context, status) : NULL;
+        bool has_surfaces = *status == FR_OK && fr_nurbs_file_is(path);
+        file = *status != FR_OK ? NULL
+               : has_surfaces   ? fr_nurbs_file_import(path, name, span, context, status)
+                                : fr_mesh_file_import(path, name, span, context, status);
     }
     g_free(path);
     if (file == NULL) {
@@ -290,6 +294,7 @@ void fr_mesh_file_unref(FrMeshFile *file) {
     for (uint32_t p = 0; p < file->part_count; p++) {
         fr_material_unref(file->parts[p].material);
     }
+    g_clear_pointer(&file->surfaces, g_array_unref);
     g_free(file->positions);
     g_free(file->normals);
     g_free(file->uvs);

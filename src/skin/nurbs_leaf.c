@@ -4,6 +4,8 @@
 // A patch blends linearly from midrib to margin, S(u, v) = (1 − v) M(u) + v B(u); a blade that is
 // curved across has cubic arcs instead. Both run through the rows of the outline (tensor product
 // interpolation, The NURBS Book, section 9.2.5), and the halves share the midrib's control points.
+// With exact margins a half is the Coons patch of midrib, margin, base and tip; where blades begin
+// and end in points that is the linear blend.
 #include "skin/nurbs.h"
 
 #include "skin/blade.h"
@@ -11,10 +13,10 @@
 
 #include <string.h>
 
-enum { LEAST_ROWS = 9, MOST_ROWS = 41, ACROSS_MOST = 4, PETIOLE_POINTS = 5 };
+enum { EVEN_ROWS = 16, LEAST_ROWS = 9, MOST_ROWS = 41, ACROSS_MOST = 4, PETIOLE_POINTS = 5 };
 
 uint64_t fr_nurbs_leaf_bytes_most(void) {
-    uint64_t patch = (uint64_t)MOST_ROWS * ACROSS_MOST * 6 + MOST_ROWS + ACROSS_MOST + 8;
+    uint64_t patch = (uint64_t)(FR_OUTLINE_FINE + 1) * ACROSS_MOST * 6 + FR_OUTLINE_FINE + ACROSS_MOST + 8;
     uint64_t petiole = 9 * (PETIOLE_POINTS + 4) * 4 + 80;
     return (2 * patch + petiole) * sizeof(double) + 5 * sizeof(FrNurbsForm);
 }
@@ -133,6 +135,93 @@ static void lay_half(GArray *forms, const FrBladeForm *form, const FrOutlineRow 
     }
 }
 
+// ---- exact margins -----------------------------------------------------------------------------
+
+/// Every place of the outline where it bends, and as many more as the blade may bend at.
+static uint32_t exact_rows(const FrOutline *outline, FrOutlineRow *rows) {
+    uint32_t count = 0;
+    for (int i = 0; i <= FR_OUTLINE_FINE; i++) {
+        const double *l = &outline->left[i], *r = &outline->right[i];
+        bool is_end = i == 0 || i == FR_OUTLINE_FINE;
+        bool bends = !is_end && (fabs(l[1] - 2.0 * l[0] + l[-1]) > 1e-9 ||
+                                 fabs(r[1] - 2.0 * r[0] + r[-1]) > 1e-9);
+        if (is_end || bends || i % EVEN_ROWS == 0) {
+            rows[count++] = (FrOutlineRow){(double)i / FR_OUTLINE_FINE, *l, *r};
+        }
+    }
+    return count;
+}
+
+/// A line across half a blade at a row, from `begin` to `end` of the way to the margin.
+static FrNurbsCurve line_across(const FrBladeForm *form, const FrOutlineRow *row, double side,
+                                double begin, double end, uint32_t across) {
+    FrNurbsCurve line = {.degree = across - 1, .count = across};
+    line.knots = g_new(double, 2 * (size_t)across);
+    line.points = g_malloc_n(across, sizeof *line.points);
+    double parts[ACROSS_MOST], width = (side > 0.0 ? row->right : row->left) * form->width;
+    for (uint32_t j = 0; j < across; j++) {
+        parts[j] = (double)j / (across - 1);
+        double out = begin + parts[j] * (end - begin);
+        fr_blade_point(form, row->along, side * out * width, line.points[j]);
+        line.points[j][3] = 1.0;
+    }
+    fr_nurbs_average_knots(parts, across, across - 1, line.knots);
+    if (across > 2) {
+        fr_nurbs_interpolate(line.knots, across - 1, parts, across, line.points[0], 3, 4);
+    }
+    return line;
+}
+
+/// The polygon through a line along half a blade: its midrib (`out` 0) or its margin (1).
+static FrNurbsCurve line_along(const FrBladeForm *form, const FrOutlineRow *rows, uint32_t count,
+                               const double *at, double side, double out) {
+    FrNurbsCurve line = {.degree = 1, .count = count};
+    line.knots = g_new(double, (size_t)count + 2);
+    line.points = g_malloc_n(count, sizeof *line.points);
+    for (uint32_t i = 0; i < count; i++) {
+        double width = (side > 0.0 ? rows[i].right : rows[i].left) * form->width;
+        fr_blade_point(form, rows[i].along, side * out * width, line.points[i]);
+        line.points[i][3] = 1.0;
+    }
+    fr_nurbs_average_knots(at, count, 1, line.knots);
+    return line;
+}
+
+static void lay_exact_half(GArray *forms, const FrBladeForm *form, const FrOutlineRow *rows,
+                           uint32_t count, const double *at, uint32_t across, double side) {
+    double begin = side > 0.0 ? 1.0 : 0.0, end = 1.0 - begin;
+    FrNurbsCurve sides[4] = {line_along(form, rows, count, at, side, begin),
+                             line_along(form, rows, count, at, side, end),
+                             line_across(form, &rows[0], side, begin, end, across),
+                             line_across(form, &rows[count - 1], side, begin, end, across)};
+    uint32_t kind = side > 0.0 ? FR_NURBS_RIGHT : FR_NURBS_LEFT;
+    FrNurbsForm *half = fr_nurbs_form_add(forms, kind, 1, count, across - 1, across);
+    memcpy(half->knots_u, sides[0].knots, sizeof(double) * ((size_t)count + 2));
+    memcpy(half->knots_v, sides[2].knots, sizeof(double) * 2 * across);
+    fr_nurbs_coons(&sides[0], &sides[1], &sides[2], &sides[3], half->points);
+    half->texture = g_malloc_n((size_t)across * count, sizeof *half->texture);
+    for (uint32_t n = 0; n < across * count; n++) {
+        const FrOutlineRow *row = &rows[n % count];
+        double part = fr_nurbs_greville(half->knots_v, across - 1, n / count);
+        double out = begin + part * (end - begin), width = side > 0.0 ? row->right : row->left;
+        half->texture[n][0] = fmin(fmax(0.5 + side * out * width, 0.0), 1.0);
+        half->texture[n][1] = 1.0 - row->along;
+    }
+    for (int k = 0; k < 4; k++) {
+        fr_nurbs_curve_clear(&sides[k]);
+    }
+}
+
+static void lay_exact(GArray *forms, const FrBladeForm *form, const FrOutline *outline,
+                      uint32_t across) {
+    FrOutlineRow rows[FR_OUTLINE_FINE + 1];
+    double at[FR_OUTLINE_FINE + 1];
+    uint32_t count = exact_rows(outline, rows);
+    set_parameters(form, rows, count, at);
+    lay_exact_half(forms, form, rows, count, at, across, 1.0);
+    lay_exact_half(forms, form, rows, count, at, across, -1.0);
+}
+
 void fr_nurbs_leaf(GArray *forms, const FrPlant *plant, const FrBlade *blade,
                    const FrNurbsParams *params) {
     FrBladeForm form;
@@ -147,12 +236,16 @@ void fr_nurbs_leaf(GArray *forms, const FrPlant *plant, const FrBlade *blade,
     double waves = blade->wave != 0.0F ? fmin(8.0 * fabs((double)blade->waves), MOST_ROWS) : 0.0;
     uint32_t count = MAX(3U * blade->segments_along, (uint32_t)waves) + 1;
     count = CLAMP(count, LEAST_ROWS, MOST_ROWS);
+    bool is_level = blade->curvature_across == 0.0F && blade->wave == 0.0F;
+    uint32_t across = is_level ? 2 : ACROSS_MOST;
+    if (params->margins == FR_MARGINS_EXACT) {
+        lay_exact(forms, &form, &outline, across);
+        return;
+    }
     FrOutlineRow rows[MOST_ROWS];
     double at[MOST_ROWS];
     fr_outline_rows(&outline, count - 1, rows);
     set_parameters(&form, rows, count, at);
-    bool is_level = blade->curvature_across == 0.0F && blade->wave == 0.0F;
-    uint32_t across = is_level ? 2 : ACROSS_MOST;
     lay_half(forms, &form, rows, count, at, across, 1.0);
     lay_half(forms, &form, rows, count, at, across, -1.0);
 }

@@ -216,11 +216,31 @@ static uint64_t file_triangles(const FrPlant *plant, const FrShape *shape) {
     return shape->outline < file->part_count ? file->parts[shape->outline].index_count / 3 : 0;
 }
 
-static void lay_file(GArray *forms, const FrPlant *plant, const FrShape *shape) {
+/// Surfaces of a file are what they were.
+static void lay_surfaces(GArray *forms, const GArray *surfaces, const double size[3]) {
+    for (uint32_t i = 0; i < surfaces->len; i++) {
+        const FrNurbsSurface *s = &g_array_index(surfaces, FrNurbsSurface, i);
+        FrNurbsForm *form = fr_nurbs_form_add(forms, FR_NURBS_PATCH, s->degree_u, s->count_u,
+                                              s->degree_v, s->count_v);
+        memcpy(form->knots_u, s->knots_u, sizeof(double) * (s->count_u + s->degree_u + 1));
+        memcpy(form->knots_v, s->knots_v, sizeof(double) * (s->count_v + s->degree_v + 1));
+        for (size_t n = 0; n < (size_t)s->count_u * s->count_v; n++) {
+            const double *p = s->points[n];
+            put(form->points[n], size[0] * p[0], size[1] * p[1], size[2] * p[2], p[3]);
+        }
+    }
+}
+
+static void lay_file(GArray *forms, const FrPlant *plant, const FrShape *shape,
+                     const double size[3]) {
     if (file_triangles(plant, shape) == 0) {
         return;
     }
     const FrMeshFile *file = g_ptr_array_index(plant->files, shape->detail);
+    if (file->surfaces != NULL) {
+        lay_surfaces(forms, file->surfaces, size);
+        return;
+    }
     const FrMeshFilePart *part = &file->parts[shape->outline];
     for (uint32_t i = part->first_index; i < part->first_index + part->index_count; i += 3) {
         double corners[4][3];
@@ -274,10 +294,25 @@ GArray *fr_nurbs_shape(const FrPlant *plant, const FrShape *shape, const FrNurbs
         lay_triangles(forms, plant, shape);
         break;
     case FR_SHAPE_FILE:
-        lay_file(forms, plant, shape);
+        lay_file(forms, plant, shape, size);
         break;
     }
     return forms;
+}
+
+static uint64_t file_bytes(const FrPlant *plant, const FrShape *shape) {
+    uint64_t bytes = 1024, triangles = file_triangles(plant, shape);
+    const FrMeshFile *file =
+        triangles > 0 ? g_ptr_array_index(plant->files, shape->detail) : NULL;
+    if (file == NULL || file->surfaces == NULL) {
+        return fr_count_multiply(triangles, 512) + bytes;
+    }
+    for (uint32_t i = 0; i < file->surfaces->len; i++) {
+        const FrNurbsSurface *s = &g_array_index(file->surfaces, FrNurbsSurface, i);
+        uint64_t knots = s->count_u + s->count_v + 2 * (FR_NURBS_DEGREE_MOST + 1);
+        bytes += sizeof(FrNurbsForm) + 32 * (uint64_t)s->count_u * s->count_v + 8 * knots;
+    }
+    return bytes;
 }
 
 uint64_t fr_nurbs_shape_bytes_most(const FrPlant *plant, const FrShape *shape) {
@@ -291,7 +326,7 @@ uint64_t fr_nurbs_shape_bytes_most(const FrPlant *plant, const FrShape *shape) {
     case FR_SHAPE_MESH:
         return triangles != NULL ? fr_count_multiply(triangles->count, 64) + 1024 : 0;
     case FR_SHAPE_FILE:
-        return fr_count_multiply(file_triangles(plant, shape), 512) + 1024;
+        return file_bytes(plant, shape);
     default:
         return 8192;
     }

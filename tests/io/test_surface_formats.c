@@ -179,6 +179,47 @@ static void free_form(void) {
     remove_folder(folder);
 }
 
+static void assert_same_points(const FrNurbsSurface *own, const FrNurbsSurface *read) {
+    g_assert_cmpuint(read->count_u, ==, own->count_u);
+    g_assert_cmpuint(read->count_v, ==, own->count_v);
+    for (int k = 0; k < 9; k++) {
+        double p[3], q[3];
+        fr_nurbs_surface_at(own, (k % 3) / 2.0, (k / 3) / 2.0, p, NULL, NULL);
+        fr_nurbs_surface_at(read, (k % 3) / 2.0, (k / 3) / 2.0, q, NULL, NULL);
+        for (int d = 0; d < 3; d++) {
+            g_assert_cmpfloat_with_epsilon(p[d], q[d], 1e-12);
+        }
+    }
+}
+
+/// What is written is read again: the same surfaces, where they were.
+static void round_trip(void) {
+    static const char *const names[] = {"oak.igs", "oak.nurbs.obj"};
+    char *folder = folder_new();
+    FrScene *scene = garden();
+    const FrPlant *oak = g_array_index(scene->plants, FrScenePlant, 0).plant;
+    FrNurbsParams params = fr_nurbs_default();
+    FrContext context = fr_context_default();
+    FrNurbsSkin *skin;
+    g_assert_cmpint(fr_nurbs_plant(oak, &params, &context, &skin), ==, FR_OK);
+    for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+        FrIoStats stats = write_scene(scene, folder, names[i], FR_LEAVES_MERGED);
+        FrStatus status = FR_OK;
+        FrMeshFile *file = fr_mesh_file_load(folder, names[i], (FrSpan){0}, &context, &status);
+        g_assert_cmpint(status, ==, FR_OK);
+        g_assert_cmpuint(file->surfaces->len, ==, stats.surfaces);
+        g_assert_cmpuint(file->index_count, >, 6 * stats.surfaces);
+        for (uint64_t n = 0; n < skin->count; n++) { // the first stand is at the origin
+            assert_same_points(&skin->pieces[n].surface,
+                               &g_array_index(file->surfaces, FrNurbsSurface, n));
+        }
+        fr_mesh_file_unref(file);
+    }
+    fr_nurbs_skin_free(skin);
+    fr_scene_free(scene);
+    remove_folder(folder);
+}
+
 static void too_many_bytes(void) {
     static const char *const names[] = {"oak.igs", "oak.stp", "oak.nurbs.obj"};
     char *folder = folder_new();
@@ -203,6 +244,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/io/surfaces/STEP writes equal leaves once", shared_step);
     g_test_add_func("/io/surfaces/STEP by AP203 says who, when and how secret", managed_step);
     g_test_add_func("/io/surfaces/free-form OBJ has as many points as its knots say", free_form);
+    g_test_add_func("/io/surfaces/what is written is read again", round_trip);
     g_test_add_func("/io/surfaces/too large a text is refused and leaves no file", too_many_bytes);
     return g_test_run();
 }

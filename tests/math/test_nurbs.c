@@ -219,6 +219,101 @@ static void refused(void) {
     g_assert_false(fr_nurbs_surface_is_valid(&surface));
 }
 
+static FrNurbsCurve polygon(const double (*points)[3], uint32_t count) {
+    FrNurbsCurve curve = {.degree = 1, .count = count};
+    curve.knots = g_new(double, count + 2);
+    curve.points = g_malloc_n(count, sizeof *curve.points);
+    double *at = g_new(double, count);
+    for (uint32_t i = 0; i < count; i++) {
+        at[i] = (double)i / (count - 1);
+        const double point[4] = {points[i][0], points[i][1], points[i][2], 1};
+        memcpy(curve.points[i], point, sizeof point);
+    }
+    fr_nurbs_average_knots(at, count, 1, curve.knots);
+    g_free(at);
+    return curve;
+}
+
+/// A cubic arc from one point to another, lifted between.
+static FrNurbsCurve arc(const double from[3], const double to[3]) {
+    FrNurbsCurve curve = {.degree = 3, .count = 4};
+    curve.knots = g_memdup2((double[]){0, 0, 0, 0, 1, 1, 1, 1}, 8 * sizeof(double));
+    curve.points = g_malloc_n(4, sizeof *curve.points);
+    for (int j = 0; j < 4; j++) {
+        for (int k = 0; k < 3; k++) {
+            curve.points[j][k] = from[k] + j / 3.0 * (to[k] - from[k]);
+        }
+        curve.points[j][2] += j == 1 || j == 2 ? 0.3 : 0;
+        curve.points[j][3] = 1;
+    }
+    return curve;
+}
+
+static void assert_side(const FrNurbsSurface *patch, const FrNurbsCurve *side, bool along_u,
+                        double other) {
+    for (int n = 0; n <= 50; n++) {
+        double p[3], q[3], t = n / 50.0;
+        fr_nurbs_surface_at(patch, along_u ? t : other, along_u ? other : t, p, NULL, NULL);
+        fr_nurbs_curve_at(side, t, q, NULL);
+        for (int k = 0; k < 3; k++) {
+            g_assert_cmpfloat_with_epsilon(p[k], q[k], 1e-12);
+        }
+    }
+}
+
+static const double margin[][3] = {{0, 1, 0}, {1, 1.5, .1}, {1.2, 1.1, 0}, {2.5, 2, .3}, {4, .6, 0}};
+static const double midrib[][3] = {{0, 0, 0}, {1, 0, .4}, {2, 0, .5}, {3, 0, .3}, {4, 0, 0}};
+
+static void coons(void) {
+    // A toothed margin, a bent midrib, and arcs at both ends.
+    FrNurbsCurve bottom = polygon(midrib, 5), top = polygon(margin, 5);
+    FrNurbsCurve left = arc(midrib[0], margin[0]), right = arc(midrib[4], margin[4]);
+    double net[20][4];
+    fr_nurbs_coons(&bottom, &top, &left, &right, net);
+    FrNurbsSurface patch = {1, 3, 5, 4, bottom.knots, left.knots, (const double(*)[4])net};
+    assert_side(&patch, &bottom, true, 0);
+    assert_side(&patch, &top, true, 1);
+    assert_side(&patch, &left, false, 0);
+    assert_side(&patch, &right, false, 1);
+    // The definition, at a point inside.
+    double u = 0.3, v = 0.6, b[3], t[3], l[3], r[3], s[3];
+    fr_nurbs_curve_at(&bottom, u, b, NULL);
+    fr_nurbs_curve_at(&top, u, t, NULL);
+    fr_nurbs_curve_at(&left, v, l, NULL);
+    fr_nurbs_curve_at(&right, v, r, NULL);
+    fr_nurbs_surface_at(&patch, u, v, s, NULL, NULL);
+    for (int k = 0; k < 3; k++) {
+        double corners = (1 - v) * ((1 - u) * midrib[0][k] + u * midrib[4][k]) +
+                         v * ((1 - u) * margin[0][k] + u * margin[4][k]);
+        double wanted = (1 - v) * b[k] + v * t[k] + (1 - u) * l[k] + u * r[k] - corners;
+        g_assert_cmpfloat_with_epsilon(s[k], wanted, 1e-14);
+    }
+    fr_nurbs_curve_clear(&bottom);
+    fr_nurbs_curve_clear(&top);
+    fr_nurbs_curve_clear(&left);
+    fr_nurbs_curve_clear(&right);
+}
+
+static void coons_of_points(void) {
+    static const double pointed[][3] = {
+        {0, 0, 0}, {1, 1.5, .1}, {1.2, 1.1, 0}, {2.5, 2, .3}, {4, 0, 0}};
+    static const double still[2][2][3] = {{{0, 0, 0}, {0, 0, 0}}, {{4, 0, 0}, {4, 0, 0}}};
+    FrNurbsCurve bottom = polygon(midrib, 5), top = polygon(pointed, 5);
+    FrNurbsCurve left = polygon(still[0], 2), right = polygon(still[1], 2);
+    double net[10][4];
+    fr_nurbs_coons(&bottom, &top, &left, &right, net);
+    for (int i = 0; i < 5; i++) {
+        for (int k = 0; k < 3; k++) {
+            g_assert_cmpfloat_with_epsilon(net[i][k], midrib[i][k], 1e-15);
+            g_assert_cmpfloat_with_epsilon(net[5 + i][k], pointed[i][k], 1e-15);
+        }
+    }
+    fr_nurbs_curve_clear(&bottom);
+    fr_nurbs_curve_clear(&top);
+    fr_nurbs_curve_clear(&left);
+    fr_nurbs_curve_clear(&right);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/math/nurbs/circles of all four forms are exact", circles);
@@ -230,6 +325,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/math/nurbs/slopes agree with differences", surface_slopes);
     g_test_add_func("/math/nurbs/projecting first is evaluating first", projection);
     g_test_add_func("/math/nurbs/interpolation hits its points", interpolation);
+    g_test_add_func("/math/nurbs/a Coons patch has the sides it is given", coons);
+    g_test_add_func("/math/nurbs/with ends that are points it is the linear blend", coons_of_points);
     g_test_add_func("/math/nurbs/wrong knots and weights are refused", refused);
     return g_test_run();
 }

@@ -397,6 +397,39 @@ static void degenerate(void) {
     fr_plant_free(plant);
 }
 
+// A toothed outline: the margin of an exact half is the outline.
+static void exact_margin(void) {
+    double teeth[33][2];
+    for (int i = 0; i <= 32; i++) {
+        teeth[i][0] = i / 32.0;
+        teeth[i][1] = 0.5 * sin(G_PI * teeth[i][0]) * (i % 2 == 0 ? 1 : 0.8);
+    }
+    FrPlant *plant = fr_plant_new("toothed");
+    FrShape shape = leaf_shape();
+    shape.blade.petiole_length = 0;
+    shape.blade.curvature_along = 0;
+    shape.blade.fold = 0;
+    shape.blade.outline = fr_plant_add_profile(plant, (const double(*)[2])teeth, 33, false);
+    uint32_t organ = fr_plant_append_organs(plant, 1);
+    plant->organs.shape[organ] = fr_plant_add_shape(plant, &shape);
+    FrNurbsParams params = fr_nurbs_default();
+    params.margins = FR_MARGINS_EXACT;
+    FrNurbsSkin *skin = skinned(plant, &params);
+    const FrNurbsSurface *right = &skin->pieces[0].surface;
+    g_assert_cmpuint(skin->pieces[0].kind, ==, FR_NURBS_RIGHT);
+    // Points of the surface on its margin are on the polygon; the base is as wide as it must be.
+    for (int n = 0; n <= 400; n++) {
+        double p[3];
+        fr_nurbs_surface_at(right, n / 400.0, 0, p, NULL, NULL);
+        double along = CLAMP(p[2] / 0.1 * 32, 0, 31.999), part = along - floor(along);
+        int i = (int)along;
+        double wanted = 0.05 * ((1 - part) * teeth[i][1] + part * teeth[i + 1][1]);
+        g_assert_cmpfloat_with_epsilon(fabs(p[0]), wanted, i < 2 ? 1e-3 : 5e-5);
+    }
+    fr_nurbs_skin_free(skin);
+    fr_plant_free(plant);
+}
+
 // Where a long stem bends, its surface stays at the fork, where a branch begins.
 static void corners(void) {
     FrPlant *plant = fr_plant_new("bent");
@@ -483,6 +516,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/nurbs/a leaf is a petiole and two ruled halves", leaf);
     g_test_add_func("/skin/nurbs/a leaf curved across has cubic arcs", curved_leaf);
     g_test_add_func("/skin/nurbs/every primitive is exact", primitives);
+    g_test_add_func("/skin/nurbs/exact margins have all teeth of the outline", exact_margin);
     g_test_add_func("/skin/nurbs/a surface stays at the corners of its path", corners);
     g_test_add_func("/skin/nurbs/equal organs are copies of one shape", copies);
     g_test_add_func("/skin/nurbs/any number of threads makes the same surfaces", threads);
