@@ -1,4 +1,5 @@
-// Rational surfaces: a plant of 100 000 branches as control nets, and points of surfaces evaluated.
+// Rational surfaces: a plant of 100 000 branches as control nets, points of surfaces evaluated, and
+// triangles cut from them.
 #include "bench.h"
 
 #include "frond/nurbs_skin.h"
@@ -68,6 +69,54 @@ static void evaluate(void *data) {
     bench_keep(&sum);
 }
 
+typedef struct Meshing {
+    const FrPlant *plant;
+    FrNurbsParams params;
+    FrContext context;
+    uint64_t vertices, triangles;
+} Meshing;
+
+static void mesh(void *data) {
+    Meshing *meshing = data;
+    FrMesh *made;
+    FrStatus status =
+        fr_nurbs_mesh(meshing->plant, &meshing->params, 0, FR_UP_Z, &meshing->context, &made);
+    FR_ASSERT(status == FR_OK);
+    meshing->vertices = made->vertex_count;
+    meshing->triangles = made->index_count / 3;
+    fr_mesh_free(made);
+}
+
+/// What any way of making the vertices must do at least.
+static void plain_vertices(void *data) {
+    const Meshing *meshing = data;
+    size_t size = meshing->vertices * sizeof(FrVertex);
+    void *bytes = g_malloc(size);
+    memset(bytes, 1, size);
+    bench_keep(bytes);
+    g_free(bytes);
+}
+
+static void bench_meshes(int threads) {
+    FrPlant *plant = thicket();
+    Meshing meshing = {.plant = plant, .params = fr_nurbs_default()};
+    meshing.params.tolerance = 0.002;
+    meshing.context = fr_context_default();
+    meshing.context.pool = fr_pool_new(threads);
+    double seconds = bench_shortest(3, mesh, &meshing);
+    double plain = bench_shortest(3, plain_vertices, &meshing);
+    double vertices = (double)meshing.vertices;
+    bench_tell(
+        threads == 1 ? "nurbs.mesh" : "nurbs.mesh-2-threads", vertices / seconds, vertices / plain,
+        "vertices/s",
+        "%d branches to surfaces and to triangles at most 2 mm away, in %.3f s: %.2f million "
+        "vertices, %.2f million triangles, %d thread%s; limit: memset of as many fresh bytes",
+        TREES * BRANCHES, seconds, vertices / 1e6, (double)meshing.triangles / 1e6, threads,
+        threads == 1 ? "" : "s");
+    fr_pool_free(meshing.context.pool);
+    fr_plant_free(plant);
+}
+
 static void bench_sweeps(int threads) {
     Sweeping sweeping = {.plant = thicket(), .params = fr_nurbs_default()};
     sweeping.context = fr_context_default();
@@ -97,4 +146,6 @@ static void bench_sweeps(int threads) {
 void bench_nurbs(void) {
     bench_sweeps(1);
     bench_sweeps(2);
+    bench_meshes(1);
+    bench_meshes(2);
 }

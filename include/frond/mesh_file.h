@@ -1,5 +1,6 @@
 /// @file mesh_file.h
-/// Triangles read from files: `.obj`, `.stl`, `.gltf`, `.glb`, and rational surfaces of `.igs` and of
+/// Triangles read from files: `.obj`, `.stl`, `.gltf`, `.glb`, and rational surfaces of `.igs` and
+/// of
 /// `.obj` with free-form statements.
 #pragma once
 
@@ -26,9 +27,9 @@ typedef struct FrMeshFile {
     FrMeshFilePart *parts; ///< owned
     uint32_t part_count;
     GArray *surfaces; ///< FrNurbsSurface, in the place of the triangles cut from them; owned; NULL
-    vec3s min, max;  ///< of positions that triangles use
-    bool is_closed;  ///< every edge has a triangle on both sides
-    FrDigest digest; ///< of all of it
+    vec3s min, max;   ///< of positions that triangles use
+    bool is_closed;   ///< every edge has a triangle on both sides
+    FrDigest digest;  ///< of all of it
 } FrMeshFile;
 
 /// Reads the file `name`, a path relative to `folder` that does not lead out of it. Files it names

@@ -36,8 +36,8 @@ FrNurbsSurface fr_surface_new(uint32_t degree_u, uint32_t count_u, uint32_t degr
     *knots_u = g_new(double, (size_t)count_u + degree_u + 1);
     *knots_v = g_new(double, (size_t)count_v + degree_v + 1);
     *points = g_malloc_n((size_t)count_u * count_v, sizeof **points);
-    return (FrNurbsSurface){degree_u, degree_v, count_u, count_v, *knots_u, *knots_v,
-                            (const double(*)[4]) * points};
+    return (FrNurbsSurface){
+        degree_u, degree_v, count_u, count_v, *knots_u, *knots_v, (const double(*)[4]) * points};
 }
 
 static void surface_clear(void *data) {
@@ -60,7 +60,8 @@ void fr_surface_take(FrSurfaceReader *reader, FrNurbsSurface surface, size_t lin
     }
     surface_clear(&surface);
     if (reader->status == FR_OK) {
-        fr_surface_fail(reader, line, "the knots fall, or points or weights are no numbers above 0");
+        fr_surface_fail(reader, line,
+                        "the knots fall, or points or weights are no numbers above 0");
     }
 }
 
@@ -129,9 +130,8 @@ static FrFileGrid *choose_grids(const GArray *surfaces, uint64_t *triangles) {
     }
     for (uint32_t first = 0, next; first < surfaces->len; first = next) {
         const FrNurbsSurface *s = &g_array_index(surfaces, FrNurbsSurface, first);
-        for (next = first + 1;
-             next < surfaces->len &&
-             has_same_rim(s, &g_array_index(surfaces, FrNurbsSurface, next));
+        for (next = first + 1; next < surfaces->len &&
+                               has_same_rim(s, &g_array_index(surfaces, FrNurbsSurface, next));
              next++) {
         }
         share_rims(surfaces, grids, first, next);
@@ -146,7 +146,8 @@ static FrFileGrid *choose_grids(const GArray *surfaces, uint64_t *triangles) {
 static void add_triangle(FrMeshFile *file, uint32_t a, uint32_t b, uint32_t c) {
     const vec3s *at = file->positions;
     bool is_plain = memcmp(&at[a], &at[b], sizeof *at) != 0 &&
-                    memcmp(&at[b], &at[c], sizeof *at) != 0 && memcmp(&at[c], &at[a], sizeof *at) != 0;
+                    memcmp(&at[b], &at[c], sizeof *at) != 0 &&
+                    memcmp(&at[c], &at[a], sizeof *at) != 0;
     const uint32_t corners[3] = {a, b, c};
     for (int k = 0; k < 3 && is_plain; k++) {
         file->indices[file->index_count++] = corners[k];

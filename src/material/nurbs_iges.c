@@ -83,7 +83,8 @@ static GArray *parameters_of(const FrIgesReader *iges, const FrIgesEntity *entit
         g_string_append_len(text, g_ptr_array_index(iges->data, line), DATA);
     }
     for (size_t i = 1; i < text->len; i++) {
-        bool is_exponent = text->str[i] == 'D' && g_ascii_isdigit(text->str[i - 1] == '.' ? '0' : text->str[i - 1]);
+        bool is_exponent = text->str[i] == 'D' &&
+                           g_ascii_isdigit(text->str[i - 1] == '.' ? '0' : text->str[i - 1]);
         text->str[i] = is_exponent ? 'E' : text->str[i];
     }
     GArray *numbers = numbers_of(iges, text->str, text->len);
@@ -105,8 +106,8 @@ static void read_global(FrIgesReader *iges) {
     }
     GArray *numbers = numbers_of(iges, text->str, text->len);
     // Model space scale and the flag of units, 13th and 14th.
-    static const double units[] = {1, 0.0254, 0.001, 1, 0.3048, 1609.344, 1,
-                                   1000, 0.0000254, 0.000001, 0.01, 0.0000000254};
+    static const double units[] = {1, 0.0254, 0.001,     1,        0.3048, 1609.344,
+                                   1, 1000,   0.0000254, 0.000001, 0.01,   0.0000000254};
     double flag = numbers->len > 13 ? g_array_index(numbers, double, 13) : 6.0;
     iges->unit = flag >= 1.0 && flag < G_N_ELEMENTS(units) ? units[(size_t)flag] : 1.0;
     g_array_unref(numbers);

@@ -8,9 +8,9 @@
 typedef struct FrObjReader {
     FrSurfaceReader *reader;
     size_t line;
-    GArray *vertices;   ///< double[4], z up
-    GArray *knots[2];   ///< double, of the surface being read
-    GArray *controls;   ///< uint32_t, vertices of the surface being read
+    GArray *vertices; ///< double[4], z up
+    GArray *knots[2]; ///< double, of the surface being read
+    GArray *controls; ///< uint32_t, vertices of the surface being read
     int64_t degree[2];
     bool is_rational, is_spline, is_surface;
 } FrObjReader;

@@ -1,9 +1,10 @@
-// Patches from their four sides. Coons. Surfaces for computer-aided design of space forms. MIT, 1967.
+// Patches from their four sides. Coons. Surfaces for computer-aided design of space forms. MIT,
+// 1967.
 //
 // S = L + K − B: the surfaces ruled between two opposite sides and between the other two, less the
-// bilinear one of the corners. A linear function has the means of `degree` knots in a row (Greville)
-// as its control values, whatever the knots: so all three are nets of the same size, and no degree
-// needs to be raised.
+// bilinear one of the corners. A linear function has the means of `degree` knots in a row
+// (Greville) as its control values, whatever the knots: so all three are nets of the same size, and
+// no degree needs to be raised.
 #include "frond/nurbs.h"
 
 #include <string.h>
@@ -19,8 +20,10 @@ double fr_nurbs_greville(const double *knots, uint32_t degree, uint32_t index) {
 void fr_nurbs_coons(const FrNurbsCurve *bottom, const FrNurbsCurve *top, const FrNurbsCurve *left,
                     const FrNurbsCurve *right, double (*points)[4]) {
     uint32_t across = bottom->count, along = left->count;
-    const double(*b)[4] = (const double(*)[4])bottom->points, (*t)[4] = (const double(*)[4])top->points;
-    const double(*l)[4] = (const double(*)[4])left->points, (*r)[4] = (const double(*)[4])right->points;
+    const double(*b)[4] = (const double(*)[4])bottom->points,
+          (*t)[4] = (const double(*)[4])top->points;
+    const double(*l)[4] = (const double(*)[4])left->points,
+          (*r)[4] = (const double(*)[4])right->points;
     for (uint32_t j = 0; j < along; j++) {
         double v = fr_nurbs_greville(left->knots, left->degree, j);
         for (uint32_t i = 0; i < across; i++) {

@@ -16,7 +16,8 @@
 enum { EVEN_ROWS = 16, LEAST_ROWS = 9, MOST_ROWS = 41, ACROSS_MOST = 4, PETIOLE_POINTS = 5 };
 
 uint64_t fr_nurbs_leaf_bytes_most(void) {
-    uint64_t patch = (uint64_t)(FR_OUTLINE_FINE + 1) * ACROSS_MOST * 6 + FR_OUTLINE_FINE + ACROSS_MOST + 8;
+    uint64_t patch =
+        (uint64_t)(FR_OUTLINE_FINE + 1) * ACROSS_MOST * 6 + FR_OUTLINE_FINE + ACROSS_MOST + 8;
     uint64_t petiole = 9 * (PETIOLE_POINTS + 4) * 4 + 80;
     return (2 * patch + petiole) * sizeof(double) + 5 * sizeof(FrNurbsForm);
 }

@@ -302,8 +302,7 @@ GArray *fr_nurbs_shape(const FrPlant *plant, const FrShape *shape, const FrNurbs
 
 static uint64_t file_bytes(const FrPlant *plant, const FrShape *shape) {
     uint64_t bytes = 1024, triangles = file_triangles(plant, shape);
-    const FrMeshFile *file =
-        triangles > 0 ? g_ptr_array_index(plant->files, shape->detail) : NULL;
+    const FrMeshFile *file = triangles > 0 ? g_ptr_array_index(plant->files, shape->detail) : NULL;
     if (file == NULL || file->surfaces == NULL) {
         return fr_count_multiply(triangles, 512) + bytes;
     }

@@ -6,7 +6,8 @@
 #include <string.h>
 
 static FrMeshFile *load(const char *name, const char *text, gssize size, const char *wanted) {
-    char *folder = g_dir_make_tmp("frond-XXXXXX", NULL), *path = g_build_filename(folder, name, NULL);
+    char *folder = g_dir_make_tmp("frond-XXXXXX", NULL),
+         *path = g_build_filename(folder, name, NULL);
     g_assert_true(g_file_set_contents(path, text, size, NULL));
     FrContext context = fr_context_default();
     context.diags = fr_diags_new();
@@ -37,7 +38,8 @@ static FrMeshFile *load(const char *name, const char *text, gssize size, const c
 #define ENDED "parm u 0 0 0 1 1 1\nparm v 0 0 1 1\nend\n"
 
 static void obj(void) {
-    FrMeshFile *file = load("q.nurbs.obj", QUARTER "surf 0 1 0 1 1 2 \\\n 3 -3 -2 -1\n" ENDED, -1, NULL);
+    FrMeshFile *file =
+        load("q.nurbs.obj", QUARTER "surf 0 1 0 1 1 2 \\\n 3 -3 -2 -1\n" ENDED, -1, NULL);
     g_assert_cmpuint(file->surfaces->len, ==, 1);
     g_assert_cmpuint(file->part_count, ==, 1);
     for (uint32_t i = 0; i < file->vertex_count; i++) {
@@ -54,7 +56,8 @@ static void obj(void) {
 static char *iges_text(const char *unit, const char *parameters) {
     GString *text = g_string_new(NULL);
     g_string_append_printf(text, "%-72sS%7d\n", "a patch", 1);
-    char *global = g_strdup_printf("1H,,1H;,1Hp,1Hp,1Hf,1Hf,32,38,7,308,15,1Hp,1.,%s,2HXX,1,0.01;", unit);
+    char *global =
+        g_strdup_printf("1H,,1H;,1Hp,1Hp,1Hf,1Hf,32,38,7,308,15,1Hp,1.,%s,2HXX,1,0.01;", unit);
     g_string_append_printf(text, "%-72sG%7d\n", global, 1);
     const int entries[2][3] = {{124, 1, 0}, {128, 2, 1}};
     for (int i = 0; i < 2; i++) {
@@ -63,10 +66,11 @@ static char *iges_text(const char *unit, const char *parameters) {
         g_string_append_printf(text, "%8d%8d%8d%8d%8d%8s%8s%8s%8dD%7d\n", entries[i][0], 0, 0,
                                i == 0 ? 1 : 2, 0, "", "", "", 0, 2 * i + 2);
     }
-    g_string_append_printf(text, "%-64s%8dP%7d\n", "124,0.,-1.,0.,10.,1.,0.,0.,0.,0.,0.,1.,0.;", 1, 1);
+    g_string_append_printf(text, "%-64s%8dP%7d\n", "124,0.,-1.,0.,10.,1.,0.,0.,0.,0.,0.,1.,0.;", 1,
+                           1);
     g_string_append_printf(text, "%-64.64s%8dP%7d\n", parameters, 3, 2);
-    g_string_append_printf(text, "%-64s%8dP%7d\n",
-                           strlen(parameters) > 64 ? parameters + 64 : "", 3, 3);
+    g_string_append_printf(text, "%-64s%8dP%7d\n", strlen(parameters) > 64 ? parameters + 64 : "",
+                           3, 3);
     g_string_append_printf(text, "S%7dG%7dD%7dP%7d%40sT%7d\n", 1, 1, 4, 3, "", 1);
     g_free(global);
     return g_string_free(text, FALSE);
@@ -91,8 +95,10 @@ static void iges(void) {
 
 static void refused(void) {
     static const char *const objs[] = {
-        QUARTER "surf 0 1 0 1 1 2 3 4 5\n" ENDED,   QUARTER "surf 0 1 0 1 1 2 3 4 5 7\n" ENDED,
-        QUARTER "surf 0 1 0 1 1 2 3 4 5 0\n" ENDED, QUARTER "surf 0 1 0 1 1 2 3 4 5 6\nend\n",
+        QUARTER "surf 0 1 0 1 1 2 3 4 5\n" ENDED,
+        QUARTER "surf 0 1 0 1 1 2 3 4 5 7\n" ENDED,
+        QUARTER "surf 0 1 0 1 1 2 3 4 5 0\n" ENDED,
+        QUARTER "surf 0 1 0 1 1 2 3 4 5 6\nend\n",
         QUARTER "deg 0 1\nsurf 0 1 0 1 1 2 3 4 5 6\n" ENDED,
         QUARTER "cstype bezier\nsurf 0 1 0 1 1 2 3 4 5 6\n" ENDED,
         QUARTER "v 1 1 1 -1\nsurf 0 1 0 1 1 2 3 4 5 7\n" ENDED,
@@ -133,8 +139,7 @@ static void mutated(void) {
         context.diags = fr_diags_new();
         context.limits.triangles = 100000;
         FrStatus status = FR_OK;
-        FrMeshFile *file =
-            fr_mesh_file_load(folder, names[n % 2], (FrSpan){0}, &context, &status);
+        FrMeshFile *file = fr_mesh_file_load(folder, names[n % 2], (FrSpan){0}, &context, &status);
         g_assert_true((file != NULL) == (status == FR_OK));
         fr_mesh_file_unref(file);
         fr_diags_free(context.diags);

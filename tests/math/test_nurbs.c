@@ -261,7 +261,8 @@ static void assert_side(const FrNurbsSurface *patch, const FrNurbsCurve *side, b
     }
 }
 
-static const double margin[][3] = {{0, 1, 0}, {1, 1.5, .1}, {1.2, 1.1, 0}, {2.5, 2, .3}, {4, .6, 0}};
+static const double margin[][3] = {
+    {0, 1, 0}, {1, 1.5, .1}, {1.2, 1.1, 0}, {2.5, 2, .3}, {4, .6, 0}};
 static const double midrib[][3] = {{0, 0, 0}, {1, 0, .4}, {2, 0, .5}, {3, 0, .3}, {4, 0, 0}};
 
 static void coons(void) {
@@ -326,7 +327,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/math/nurbs/projecting first is evaluating first", projection);
     g_test_add_func("/math/nurbs/interpolation hits its points", interpolation);
     g_test_add_func("/math/nurbs/a Coons patch has the sides it is given", coons);
-    g_test_add_func("/math/nurbs/with ends that are points it is the linear blend", coons_of_points);
+    g_test_add_func("/math/nurbs/with ends that are points it is the linear blend",
+                    coons_of_points);
     g_test_add_func("/math/nurbs/wrong knots and weights are refused", refused);
     return g_test_run();
 }
