@@ -55,12 +55,17 @@ typedef enum FrPlantKind {
     X(REAL, max, "1", -1000000000, 1000000000, "", "", "its greatest value")                       \
     X(REAL, initial, "1", -1000000000, 1000000000, "", "", "where it stands at first")             \
     X(REAL, value, "1", -1000000000, 1000000000, "", "",                                           \
-      "where it stands now; if it is not given, as at first")
+      "where it stands now; if it is not given, as at first")                                      \
+    X(TEXT, choices, "", 0, 0, "", "",                                                             \
+      "names of its values 0, 1, 2 …, separated by blanks, if it chooses")
 
 typedef struct FrSlider {
     FR_SLIDER_PARAMS(FR_PARAM_FIELD)
     char *id;
 } FrSlider;
+
+/// The name of the value a slider has, NULL if it has none. Free with g_free().
+FR_API char *fr_slider_choice(const FrSlider *slider);
 
 FR_API const FrParamTable *fr_slider_table(void);
 

@@ -88,8 +88,12 @@ static void print_sliders(const FrPlantDef *definition) {
         if (i == 0) {
             printf("  %-20s %10s %12s\n", "slider", "value", "range");
         }
-        char *range = g_strdup_printf("%g to %g", slider->min, slider->max);
-        printf("  %-20s %10g %12s  %s\n", slider->id, slider->value, range, label_of(slider));
+        char *choice = fr_slider_choice(slider);
+        char *value = choice != NULL ? choice : g_strdup_printf("%g", slider->value);
+        char *range = choice != NULL ? g_strdelimit(g_strdup(slider->choices), " ", '|')
+                                     : g_strdup_printf("%g to %g", slider->min, slider->max);
+        printf("  %-20s %10s %12s  %s\n", slider->id, value, range, label_of(slider));
+        g_free(value);
         g_free(range);
     }
 }
@@ -98,10 +102,11 @@ static json_t *sliders_json(const FrPlantDef *definition) {
     json_t *sliders = json_array();
     for (guint i = 0; i < definition->sliders->len; i++) {
         const FrSlider *slider = g_ptr_array_index(definition->sliders, i);
-        json_array_append_new(sliders, json_pack("{s:s, s:s, s:f, s:f, s:f, s:f}", "id", slider->id,
-                                                 "label", label_of(slider), "value", slider->value,
-                                                 "min", slider->min, "max", slider->max, "initial",
-                                                 slider->initial));
+        json_array_append_new(sliders,
+                              json_pack("{s:s, s:s, s:f, s:f, s:f, s:f, s:s*}", "id", slider->id,
+                                        "label", label_of(slider), "value", slider->value, "min",
+                                        slider->min, "max", slider->max, "initial", slider->initial,
+                                        "choices", slider->choices));
     }
     return sliders;
 }

@@ -221,6 +221,12 @@ void fr_read_attributes(FrReader *reader, uint32_t node, FrElementId id, void *o
     }
 }
 
+void fr_read_attribute(FrReader *reader, uint32_t node, const FrXmlAttribute *attribute,
+                       FrElementId id, void *object) {
+    FrElement element = fr_element(id);
+    set_attribute(reader, node, attribute, &element, object);
+}
+
 char *fr_read_id(FrReader *reader, uint32_t node) {
     FrXmlRange name_place = reader->tree->nodes[node].name;
     const FrXmlAttribute *attribute = fr_xml_attribute(reader->tree, node, "id");

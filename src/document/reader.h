@@ -118,6 +118,9 @@ void fr_read_check_children(FrReader *reader, uint32_t node, FrElementId id);
 /// Sets the attributes of `node` in `object`, which fr_params_init() has filled; reports unknown,
 /// wrong and missing ones.
 void fr_read_attributes(FrReader *reader, uint32_t node, FrElementId id, void *object);
+/// One of them.
+void fr_read_attribute(FrReader *reader, uint32_t node, const FrXmlAttribute *attribute,
+                       FrElementId id, void *object);
 /// The element's id, to be freed with g_free(); NULL with an error if it is missing or wrong.
 char *fr_read_id(FrReader *reader, uint32_t node);
 /// The place of an attribute's value, else that of the element's name.

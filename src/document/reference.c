@@ -28,6 +28,8 @@ static const char head[] =
     "| points | `0,0.3 0.4,1 1,0.1` |\n"
     "| vector | `1, 0, 2.5`, or one number for all three |\n"
     "| colour | `#6b5844` |\n"
+    "| choice, text, curve, points, vector, colour | also one of several, by a number or slider: "
+    "`= pick(shape, conical; flame)`; a vector also `= 2*size, 0, 1` |\n"
     "| formula | an expression of the variables that are listed, without random numbers |\n";
 
 static const char *kind_name(FrParamKind kind) {

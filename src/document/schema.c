@@ -35,14 +35,14 @@ static const char types[] =
     "  </xs:simpleType>\n"
     "  <xs:simpleType name=\"points\">\n"
     "    <xs:restriction base=\"xs:token\"><xs:pattern value=\"(" REAL " ?, ?" REAL "( " REAL
-    " ?, ?" REAL ")*)?\"/></xs:restriction>\n"
+    " ?, ?" REAL ")*)?|=.*\"/></xs:restriction>\n"
     "  </xs:simpleType>\n"
     "  <xs:simpleType name=\"vector\">\n"
     "    <xs:restriction base=\"xs:token\"><xs:pattern value=\"" REAL "( ?, ?" REAL " ?, ?" REAL
-    ")?\"/></xs:restriction>\n"
+    ")?|=.*\"/></xs:restriction>\n"
     "  </xs:simpleType>\n"
     "  <xs:simpleType name=\"colour\">\n"
-    "    <xs:restriction base=\"xs:token\"><xs:pattern value=\"#[0-9a-fA-F]{6}\"/>"
+    "    <xs:restriction base=\"xs:token\"><xs:pattern value=\"#[0-9a-fA-F]{6}|=.*\"/>"
     "</xs:restriction>\n"
     "  </xs:simpleType>\n";
 
@@ -76,7 +76,7 @@ static void append_bound(GString *out, const char *facet, double value) {
 static void append_own_type(GString *out, const FrParam *row) {
     bool is_choice = row->kind == FR_PARAM_CHOICE;
     g_string_append(out, "      <xs:simpleType>");
-    g_string_append(out, is_choice ? "" : "<xs:union memberTypes=\"fixed\"><xs:simpleType>");
+    g_string_append(out, "<xs:union memberTypes=\"fixed\"><xs:simpleType>");
     APPEND(out, "<xs:restriction base=\"%s\">", type_name(row->kind));
     if (is_choice) {
         char **choices = g_strsplit(row->choices, " ", -1);
@@ -89,17 +89,21 @@ static void append_own_type(GString *out, const FrParam *row) {
         append_bound(out, "maxInclusive", row->max);
     }
     g_string_append(out, "</xs:restriction>");
-    g_string_append(out, is_choice ? "" : "</xs:simpleType></xs:union>");
+    g_string_append(out, "</xs:simpleType></xs:union>");
     g_string_append(out, "</xs:simpleType>\n");
 }
 
 static void append_attribute(GString *out, const FrParam *row, const FrElement *element) {
     char *name = fr_param_attribute(row);
+    // Sliders that choose have names for their values.
+    bool may_be_named = strcmp(element->name, "slider") == 0 &&
+                        (strcmp(name, "value") == 0 || strcmp(name, "initial") == 0);
     bool has_own_type =
-        row->kind == FR_PARAM_CHOICE || row->kind == FR_PARAM_REAL || row->kind == FR_PARAM_INTEGER;
+        !may_be_named && (row->kind == FR_PARAM_CHOICE || row->kind == FR_PARAM_REAL ||
+                          row->kind == FR_PARAM_INTEGER);
     APPEND(out, "    <xs:attribute name=\"%s\"", name);
     if (!has_own_type) {
-        APPEND(out, " type=\"%s\"", type_name(row->kind));
+        APPEND(out, " type=\"%s\"", may_be_named ? "xs:token" : type_name(row->kind));
     }
     if (fr_element_requires(element, name)) {
         g_string_append(out, " use=\"required\"");

@@ -104,26 +104,9 @@ static bool expect_end(Cursor *cursor) {
 
 // "= 2*size": a number that is the same for all, of numbers and sliders only.
 static bool read_fixed(Cursor *cursor, double *number) {
-    const FrValueText *value = cursor->value;
-    cursor->at++; // the sign
-    FrSpan span = fr_place(value->span, cursor->at, cursor->size);
-    FrExpr *expr = fr_expr_compile(value->text + cursor->at, span, value->scope, value->diags);
-    if (expr == NULL) {
-        return false;
-    }
-    bool is_fixed = fr_expr_is_constant(expr, number);
-    if (is_fixed) {
-        FrExprFault fault = {0};
-        const FrVars none = {0};
-        fr_expr_eval(expr, &none, &fault);
-        fr_expr_report_fault(&fault, "expression", value->diags);
-    } else {
-        fr_diags_add(value->diags, FR_ERROR, "not-fixed", span,
-                     "this is the same for the whole plant: only numbers and sliders may be used");
-    }
-    fr_expr_unref(expr);
-    cursor->at = cursor->size;
-    return is_fixed;
+    bool is_good = fr_value_fixed(cursor->value, cursor->at + 1, cursor->size, number);
+    cursor->at = is_good ? cursor->size : cursor->at;
+    return is_good;
 }
 
 static bool is_expression(Cursor *cursor) {
@@ -328,8 +311,10 @@ static bool parse_curve(Cursor *cursor, FrCurve **field) {
     return true;
 }
 
-static bool parse_vector(Cursor *cursor, const FrParam *param, vec3s *field) {
-    double parts[3];
+static bool read_vector(Cursor *cursor, const FrParam *param, double parts[3]) {
+    if (is_expression(cursor)) {
+        return fr_value_fixed_vector(cursor->value, param, parts);
+    }
     if (!read_bounded(cursor, param, &parts[0])) {
         return false;
     }
@@ -343,7 +328,12 @@ static bool parse_vector(Cursor *cursor, const FrParam *param, vec3s *field) {
             }
         }
     }
-    if (!expect_end(cursor)) {
+    return expect_end(cursor);
+}
+
+static bool parse_vector(Cursor *cursor, const FrParam *param, vec3s *field) {
+    double parts[3];
+    if (!read_vector(cursor, param, parts)) {
         return false;
     }
     for (int i = 0; i < 3; i++) {
@@ -444,6 +434,9 @@ static FrStatus parse_number(const FrValueText *value, const FrParam *param, FrN
 FrStatus fr_value_parse(const FrValueText *value, const FrParam *param, void *field) {
     Cursor cursor = {.value = value, .size = strlen(value->text)};
     bool is_good = true;
+    if (fr_value_is_pick(value, param)) {
+        return fr_value_pick(value, param, field);
+    }
     switch (param->kind) {
     case FR_PARAM_NUMBER:
         return parse_number(value, param, field);

@@ -114,6 +114,75 @@ static void test_set(void) {
     forget(&parsed);
 }
 
+static const void *field_of(const Parsed *parsed, const char *attribute) {
+    FrPgraph *graph = plant_of(parsed)->pgraph;
+    uint32_t trunk = fr_pgraph_find(graph, "trunk");
+    const FrParam *row = fr_params_find(fr_pgraph_table(FR_COMPONENT_TREE), attribute);
+    return (const char *)fr_pgraph_params(graph, trunk) + row->offset;
+}
+
+// A choice, a curve, points, a vector, a text: whatever is no number follows a slider by picking.
+static void test_picking(void) {
+    Parsed parsed = parse_plant(
+        "<slider id='kind' choices='slim broad flat' initial='broad'/><slider id='w' max='9'/>",
+        "course='= pick(kind, grown; steps; steps)' profile='= pick(kind+1, fall; fall; ramp)' "
+        "section='= pick(kind, 0,0 1,1; 0,0 1,1 2,0; 0,0 1,0)' step-translate='= w, 2*w, max(w, "
+        "3)' "
+        "only='= pick(kind - 7, odd; even)'");
+    FrContext context = fr_context_default();
+    g_assert_cmpint(*(const int *)field_of(&parsed, "course"), ==, 2);
+    g_assert_cmpfloat(fr_curve_eval(*(FrCurve *const *)field_of(&parsed, "profile"), 1), ==, 1);
+    g_assert_cmpuint(((const FrPoints *)field_of(&parsed, "section"))->count, ==, 3);
+    const vec3s *by = field_of(&parsed, "step-translate");
+    g_assert_cmpfloat(by->x, ==, 1);
+    g_assert_cmpfloat(by->y, ==, 2);
+    g_assert_cmpfloat(by->z, ==, 3);
+    g_assert_cmpstr(*(char *const *)field_of(&parsed, "only"), ==, "odd");
+    g_assert_cmpint(fr_document_set(parsed.document, "p.kind", "slim", &context), ==, FR_OK);
+    g_assert_cmpint(*(const int *)field_of(&parsed, "course"), ==, 0);
+    g_assert_cmpuint(((const FrPoints *)field_of(&parsed, "section"))->count, ==, 2);
+    g_assert_cmpint(fr_document_set(parsed.document, "p.kind", "2", &context), ==, FR_OK);
+    char *name = fr_slider_choice(g_ptr_array_index(plant_of(&parsed)->sliders, 0));
+    g_assert_cmpstr(name, ==, "flat");
+    g_free(name);
+    forget(&parsed);
+}
+
+// What is wrong in a list is told where it stands, chosen or not.
+static void test_wrong_picks(void) {
+    static const struct {
+        const char *trunk, *code;
+        uint32_t column;
+    } rows[] = {
+        {"crown='= pick(k, conical; flam)'", "unknown-choice", 101},
+        {"crown='= pick(k, )'", "unknown-choice", 92},
+        {"crown='= pick(k)'", "bad-value", 82},
+        {"crown='= pick(x, conical; flame)'", "not-fixed", 89},
+        {"profile='= pick(k, fall; 0,0 0,1)'", "curve-order", 104},
+        {"step-translate='= k, 1'", "bad-value", 91},
+        {"step-translate='= k, 1, 2, 3'", "bad-value", 101},
+        {"step-translate='= 5000*k, 1, 2'", "out-of-range", 92},
+    };
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        char *inner = g_strdup_printf(
+            "<plant id='p'><slider id='k'/><pgraph><camera id='root'/><tree id='trunk' %s/>"
+            "</pgraph></plant>",
+            rows[i].trunk);
+        char *text = in_root(inner);
+        Parsed parsed = parse(text);
+        assert_one_error(&parsed, FR_ERR_DOCUMENT, rows[i].code, 2, rows[i].column);
+        forget(&parsed);
+        g_free(text);
+        g_free(inner);
+    }
+    char *text = in_root("<plant id='p'><slider id='k' choices='a b a'/><pgraph><leaf id='l'/>"
+                         "</pgraph></plant>");
+    Parsed parsed = parse(text);
+    assert_one_error(&parsed, FR_ERR_DOCUMENT, "bad-choices", 2, 39);
+    forget(&parsed);
+    g_free(text);
+}
+
 static void test_own(void) {
     char *text = in_root("<plant id='a'><slider id='k' max='9' initial='2'/><pgraph>"
                          "<horn id='h' length='1 | k'/></pgraph></plant>"
@@ -131,6 +200,9 @@ int main(int argc, char *argv[]) {
     g_test_add_func("/document/sliders/whole numbers and switches follow sliders",
                     test_whole_numbers);
     g_test_add_func("/document/sliders/setting a plant's slider changes all that use it", test_set);
+    g_test_add_func("/document/sliders/choices, curves, points, vectors and texts follow sliders",
+                    test_picking);
+    g_test_add_func("/document/sliders/what may be picked must be right", test_wrong_picks);
     g_test_add_func("/document/sliders/a slider belongs to its plant alone", test_own);
     return g_test_run();
 }
