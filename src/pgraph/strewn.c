@@ -2,10 +2,11 @@
 // Mitchell. Spectrally Optimal Sampling for Distribution Ray Tracing. SIGGRAPH 1991.
 #include "pgraph/strewn.h"
 
+#include "pgraph/near.h"
+
 #include <math.h>
 
-enum { MOST_CELLS = 128, MOST_TRIES = 256 }; // along a side; for a candidate
-#define NO_POINT UINT32_MAX
+enum { MOST_TRIES = 256 }; // for a candidate
 
 static void corner(const FrMeshFile *file, uint32_t triangle, int k, double at[3]) {
     vec3s from = file->positions[file->indices[3 * triangle + (uint32_t)k]];
@@ -121,113 +122,22 @@ static void draw(const FrStrewnSurface *surface, FrKey key, FrStrewnPoint *point
     }
 }
 
-// ---- the nearest point --------------------------------------------------------------------------
-
-// Cells over the file's box, each with a chain of its points: it finds the nearest point sooner and
-// has no say in which it is.
-typedef struct Grid {
-    const FrStrewnPoint *points;
-    double min[3], width;
-    int64_t side;
-    uint32_t *first, *next;
-} Grid;
-
-static void cell_of(const Grid *grid, const double at[3], int64_t cell[3]) {
-    for (int r = 0; r < 3; r++) {
-        double place = grid->width > 0 ? floor((at[r] - grid->min[r]) / grid->width) : 0;
-        cell[r] = place <= 0 ? 0 : place >= (double)grid->side ? grid->side - 1 : (int64_t)place;
-    }
-}
-
-static size_t index_of(const Grid *grid, const int64_t cell[3]) {
-    return (size_t)((cell[2] * grid->side + cell[1]) * grid->side + cell[0]);
-}
-
-static double nearest_in(const Grid *grid, const int64_t cell[3], const double at[3],
-                         double nearest) {
-    for (uint32_t k = grid->first[index_of(grid, cell)]; k != NO_POINT; k = grid->next[k]) {
-        double square = 0;
-        for (int r = 0; r < 3; r++) {
-            double off = grid->points[k].at[r] - at[r];
-            square += off * off;
-        }
-        nearest = fmin(nearest, square);
-    }
-    return nearest;
-}
-
-// The nearest point among the cells `ring` away from the middle one.
-static double nearest_in_ring(const Grid *grid, const int64_t middle[3], int64_t ring,
-                              const double at[3], double nearest) {
-    int64_t cell[3];
-    for (cell[2] = MAX(middle[2] - ring, 0); cell[2] <= MIN(middle[2] + ring, grid->side - 1);
-         cell[2]++) {
-        for (cell[1] = MAX(middle[1] - ring, 0); cell[1] <= MIN(middle[1] + ring, grid->side - 1);
-             cell[1]++) {
-            bool is_edge = ring == 0 || llabs(cell[2] - middle[2]) == ring ||
-                           llabs(cell[1] - middle[1]) == ring;
-            for (cell[0] = middle[0] - ring; cell[0] <= middle[0] + ring;
-                 cell[0] += is_edge ? 1 : 2 * ring) {
-                if (cell[0] >= 0 && cell[0] < grid->side) {
-                    nearest = nearest_in(grid, cell, at, nearest);
-                }
-            }
-        }
-    }
-    return nearest;
-}
-
-// Squared distance to the nearest point; may stop as soon as it is not more than `enough`.
-static double nearest_point(const Grid *grid, const double at[3], double enough) {
-    int64_t middle[3];
-    cell_of(grid, at, middle);
-    double nearest = INFINITY;
-    for (int64_t ring = 0; ring < grid->side; ring++) {
-        double clear = (double)(ring - 1) * grid->width;
-        if (nearest <= enough || (clear > 0 && clear * clear >= nearest)) {
-            break;
-        }
-        nearest = nearest_in_ring(grid, middle, ring, at, nearest);
-    }
-    return nearest;
-}
-
-static Grid grid_new(const FrMeshFile *file, const FrStrewnPoint *points, uint32_t count) {
-    Grid grid = {.points = points, .side = (int64_t)CLAMP(sqrt(count), 1, MOST_CELLS)};
-    for (int r = 0; r < 3; r++) {
-        grid.min[r] = (double)file->min.raw[r];
-        grid.width = fmax(grid.width, (double)file->max.raw[r] - grid.min[r]);
-    }
-    grid.width /= (double)grid.side;
-    size_t cells = (size_t)(grid.side * grid.side * grid.side);
-    grid.first = g_new(uint32_t, cells);
-    grid.next = g_new(uint32_t, MAX(count, 1));
-    for (size_t cell = 0; cell < cells; cell++) {
-        grid.first[cell] = NO_POINT;
-    }
-    return grid;
-}
-
 void fr_strew(const FrStrewnSurface *surface, FrStrewnPoint *points, uint32_t count,
               uint32_t candidates, FrKey key, const FrProgress *progress) {
-    Grid grid = grid_new(surface->file, points, count);
+    FrNear *near = fr_near_new(points, sizeof *points, surface->area, count);
     for (uint32_t i = 0; i < count; i++) {
         candidates = i % 256 == 0 && fr_progress_is_cancelled(progress) ? 1 : candidates;
         double best = -1;
         for (uint32_t c = 0; c < candidates; c++) {
             FrStrewnPoint point;
             draw(surface, fr_key_child(fr_key_child(key, i), c), &point);
-            double distance = candidates > 1 ? nearest_point(&grid, point.at, best) : 0;
+            double distance = candidates > 1 ? fr_near_distance(near, point.at, best) : 0;
             if (distance > best) {
                 best = distance;
                 points[i] = point;
             }
         }
-        int64_t cell[3];
-        cell_of(&grid, points[i].at, cell);
-        grid.next[i] = grid.first[index_of(&grid, cell)];
-        grid.first[index_of(&grid, cell)] = i;
+        fr_near_add(near);
     }
-    g_free(grid.first);
-    g_free(grid.next);
+    fr_near_free(near);
 }

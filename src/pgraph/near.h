@@ -1,0 +1,23 @@
+/// @file near.h
+/// The nearest of many points in space, while more are added.
+///
+/// A hash table of cells about as wide as points are apart, made anew with finer cells each time
+/// there are four times as many: it finds the nearest point sooner and has no say in which it is.
+/// Points should lie on a surface. Cost of a point and of a question: constant on the average.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct FrNear FrNear;
+
+/// `area` is that of the surface, `most` how many points there will be at most. Points are borrowed:
+/// `stride` bytes apart, each begins with three doubles.
+FrNear *fr_near_new(const void *points, size_t stride, double area, uint32_t most);
+void fr_near_free(FrNear *near);
+/// Adds the point of the next index, from 0.
+void fr_near_add(FrNear *near);
+/// Squared distance from a place to the nearest point, INFINITY if there is none; may stop as soon
+/// as it is not more than `enough`.
+double fr_near_distance(const FrNear *near, const double at[3], double enough);
