@@ -10,49 +10,50 @@
 
 enum { FIRST_POINTS = 64, GROWTH = 4 };
 
+typedef struct Point {
+    double at[3];
+    uint32_t next; // in its bucket
+} Point;
+
 struct FrNear {
-    const char *points;
-    size_t stride;
+    Point *points;
     double area, width; // of the surface; of a cell
     uint32_t most, count, room;
-    uint32_t mask;     // of hashes; buckets are its successor
-    uint32_t *first;   // by bucket
-    uint32_t *next;    // by point
+    uint32_t mask;         // of hashes; buckets are its successor
+    uint32_t *first;       // by bucket
     double min[3], max[3]; // of the points
 };
-
-static const double *point_of(const FrNear *near, uint32_t index) {
-    return (const double *)(const void *)(near->points + (size_t)index * near->stride);
-}
 
 static int64_t cell_of(const FrNear *near, double at) {
     return (int64_t)fmax(-FARTHEST, fmin(floor(at / near->width), FARTHEST));
 }
 
+// Eight cells that touch have buckets side by side.
 static uint32_t bucket_of(const FrNear *near, const int64_t cell[3]) {
-    uint64_t hash = (uint64_t)cell[0] * UINT64_C(0x9e3779b97f4a7c15) ^
-                    (uint64_t)cell[1] * UINT64_C(0xc2b2ae3d27d4eb4f) ^
-                    (uint64_t)cell[2] * UINT64_C(0x165667b19e3779f9);
-    return (uint32_t)(hash ^ hash >> 32) & near->mask;
+    uint64_t hash = (uint64_t)(cell[0] >> 1) * UINT64_C(0x9e3779b97f4a7c15) ^
+                    (uint64_t)(cell[1] >> 1) * UINT64_C(0xc2b2ae3d27d4eb4f) ^
+                    (uint64_t)(cell[2] >> 1) * UINT64_C(0x165667b19e3779f9);
+    uint32_t corner = (uint32_t)((cell[2] & 1) << 2 | (cell[1] & 1) << 1 | (cell[0] & 1));
+    return (((uint32_t)(hash ^ hash >> 32) << 3) & near->mask) | corner;
 }
 
 static void chain(FrNear *near, uint32_t index) {
-    const double *at = point_of(near, index);
+    Point *point = &near->points[index];
     int64_t cell[3];
     for (int r = 0; r < 3; r++) {
-        cell[r] = cell_of(near, at[r]);
+        cell[r] = cell_of(near, point->at[r]);
     }
     uint32_t bucket = bucket_of(near, cell);
-    near->next[index] = near->first[bucket];
+    point->next = near->first[bucket];
     near->first[bucket] = index;
 }
 
-// Makes room for so many points, in cells as wide as these will be apart.
+// Makes room for so many points, in cells a little narrower than these will be apart.
 static void make_room(FrNear *near, uint32_t room) {
     near->room = room;
-    near->width = sqrt(fmax(near->area, 1e-30) / room);
-    uint32_t buckets = 1;
-    while (buckets < room && buckets < 1u << 31) {
+    near->width = 0.6 * sqrt(fmax(near->area, 1e-30) / room);
+    uint32_t buckets = 8;
+    while (buckets < 4 * (uint64_t)room && buckets < 1u << 31) {
         buckets *= 2;
     }
     near->mask = buckets - 1;
@@ -65,10 +66,10 @@ static void make_room(FrNear *near, uint32_t room) {
     }
 }
 
-FrNear *fr_near_new(const void *points, size_t stride, double area, uint32_t most) {
+FrNear *fr_near_new(double area, uint32_t most) {
     FrNear *near = g_new0(FrNear, 1);
-    *near = (FrNear){.points = points, .stride = stride, .area = area, .most = most};
-    near->next = g_new(uint32_t, MAX(most, 1));
+    *near = (FrNear){.area = area, .most = most};
+    near->points = g_new(Point, MAX(most, 1));
     make_room(near, FIRST_POINTS);
     return near;
 }
@@ -76,17 +77,17 @@ FrNear *fr_near_new(const void *points, size_t stride, double area, uint32_t mos
 void fr_near_free(FrNear *near) {
     if (near != NULL) {
         g_free(near->first);
-        g_free(near->next);
+        g_free(near->points);
         g_free(near);
     }
 }
 
-void fr_near_add(FrNear *near) {
+void fr_near_add(FrNear *near, const double at[3]) {
     if (near->count == near->room) {
         make_room(near, near->room > near->most / GROWTH ? near->most : near->room * GROWTH);
     }
-    const double *at = point_of(near, near->count);
     for (int r = 0; r < 3; r++) {
+        near->points[near->count].at[r] = at[r];
         near->min[r] = near->count > 0 ? fmin(near->min[r], at[r]) : at[r];
         near->max[r] = near->count > 0 ? fmax(near->max[r], at[r]) : at[r];
     }
@@ -95,8 +96,8 @@ void fr_near_add(FrNear *near) {
 
 static double nearest_in(const FrNear *near, const int64_t cell[3], const double at[3],
                          double nearest) {
-    for (uint32_t k = near->first[bucket_of(near, cell)]; k != NO_POINT; k = near->next[k]) {
-        const double *point = point_of(near, k);
+    for (uint32_t k = near->first[bucket_of(near, cell)]; k != NO_POINT; k = near->points[k].next) {
+        const double *point = near->points[k].at;
         double square = 0;
         for (int r = 0; r < 3; r++) {
             double off = point[r] - at[r];

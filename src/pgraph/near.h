@@ -12,12 +12,10 @@
 
 typedef struct FrNear FrNear;
 
-/// `area` is that of the surface, `most` how many points there will be at most. Points are borrowed:
-/// `stride` bytes apart, each begins with three doubles.
-FrNear *fr_near_new(const void *points, size_t stride, double area, uint32_t most);
+/// `area` is that of the surface, `most` how many points there will be at most.
+FrNear *fr_near_new(double area, uint32_t most);
 void fr_near_free(FrNear *near);
-/// Adds the point of the next index, from 0.
-void fr_near_add(FrNear *near);
+void fr_near_add(FrNear *near, const double at[3]);
 /// Squared distance from a place to the nearest point, INFINITY if there is none; may stop as soon
 /// as it is not more than `enough`.
 double fr_near_distance(const FrNear *near, const double at[3], double enough);

@@ -124,7 +124,7 @@ static void draw(const FrStrewnSurface *surface, FrKey key, FrStrewnPoint *point
 
 void fr_strew(const FrStrewnSurface *surface, FrStrewnPoint *points, uint32_t count,
               uint32_t candidates, FrKey key, const FrProgress *progress) {
-    FrNear *near = fr_near_new(points, sizeof *points, surface->area, count);
+    FrNear *near = fr_near_new(surface->area, count);
     for (uint32_t i = 0; i < count; i++) {
         candidates = i % 256 == 0 && fr_progress_is_cancelled(progress) ? 1 : candidates;
         double best = -1;
@@ -137,7 +137,7 @@ void fr_strew(const FrStrewnSurface *surface, FrStrewnPoint *points, uint32_t co
                 points[i] = point;
             }
         }
-        fr_near_add(near);
+        fr_near_add(near, points[i].at);
     }
     fr_near_free(near);
 }
