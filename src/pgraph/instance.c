@@ -170,10 +170,12 @@ versors fr_turned_towards(versors frame, vec3s from, vec3s to, double part) {
     vec3s axis = glms_vec3_cross(from, to);
     float sine = glms_vec3_norm(axis);
     float angle = atan2f(sine, glms_vec3_dot(from, to));
-    // Straight away from it, about whichever of its own axes is across.
-    vec3s aside = fabsf(glms_vec3_dot(from, fr_frame_left(frame))) < 0.7f ? fr_frame_left(frame)
-                                                                          : fr_frame_up(frame);
-    axis = sine > 1e-6f ? glms_vec3_divs(axis, sine) : aside;
+    if (sine > 1e-6f) {
+        axis = glms_vec3_divs(axis, sine);
+    } else { // straight away from it, about whichever of its own axes is across
+        bool is_across = fabsf(glms_vec3_dot(from, fr_frame_left(frame))) < 0.7f;
+        axis = is_across ? fr_frame_left(frame) : fr_frame_up(frame);
+    }
     return fr_frame_step(fr_rotation_about(axis, (float)part * angle), frame);
 }
 

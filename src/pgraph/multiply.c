@@ -29,6 +29,7 @@ typedef struct Branching {
     const FrCurve *crown; // NULL: none
     Foot feet[FEET];      // of the last branches, where they keep apart
     uint32_t foot_count;
+    bool keeps_apart;
 } Branching;
 
 static bool is_on_surface(const FrTreeParams *tree, const FrPrepared *child) {
@@ -107,7 +108,7 @@ static double room_at(const Branching *branching, Foot foot, double radius) {
 
 // The azimuth nearest to one wanted at which a branch is far enough from the last ones, or where it
 // is farthest.
-static double kept_apart(Branching *branching, double azimuth, double radius, double apart) {
+static G_GNUC_NO_INLINE double kept_apart(Branching *branching, double azimuth, double radius, double apart) {
     Foot foot = {branching->at * branching->stem->length, azimuth}, best = foot;
     double most = -1;
     for (int k = 0; k <= ASIDE_TRIES && most < apart; k++) {
@@ -154,8 +155,9 @@ static FrChild pose_branch(Branching *branching, uint32_t b, FrEvaluator *evalua
         jitter != 0 ? jitter * fr_random_signed(key, fr_purpose(FR_TREE_azimuth_jitter), 1) : 0;
     double now = place_now(branching);
     double radius = fr_limb_radius(stem, branching->limb, now), out = 1 - FR_GET(sink);
-    double apart = FR_GET(apart) * branching->base.scale;
-    azimuth = apart > 0 ? kept_apart(branching, azimuth, radius, apart) : azimuth;
+    if (branching->keeps_apart) {
+        azimuth = kept_apart(branching, azimuth, radius, FR_GET(apart) * branching->base.scale);
+    }
     versors turn = fr_turned_zyz(azimuth, FR_GET(branching_angle), PI / 2 + FR_GET(roll));
     azimuth -= 2 * PI * floor(azimuth / (2 * PI));
     *reach =
@@ -226,14 +228,14 @@ uint32_t fr_make_branches(const FrExpansion *expansion, uint32_t row, const FrSt
         .crown = stem->prepared->crown,
     };
     const FrNumber *apart = &branching.tree->apart;
-    bool keeps_apart = !apart->is_constant || apart->constant > 0;
+    branching.keeps_apart = !apart->is_constant || apart->constant > 0;
     branching.sweep = fr_value(evaluator, &branching.tree->sweep, FR_TREE_sweep);
     for (uint32_t l = 0; l < stem->limb_count; l++) {
         branching.limb = fr_stem_limb(stem, &whole, l);
         branching.foot_count = 0;
         for (uint32_t b = branching.limb->first_branch; b < branching.limb->end_branch; b++) {
             // Those that flags leave out are kept apart from as if they were there.
-            if (keeps_apart || fr_is_wanted(expansion, stage, b, count)) {
+            if (branching.keeps_apart || fr_is_wanted(expansion, stage, b, count)) {
                 at = make_branch(&branching, b, evaluator, place, at);
             }
         }

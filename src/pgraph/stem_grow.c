@@ -87,6 +87,12 @@ static double bend_up_to(const FrStem *stem, const Walk *walk, double at) {
            back;
 }
 
+static G_GNUC_NO_INLINE double trembling_at(const FrStem *stem, FrKey limb, uint64_t side,
+                                            double at) {
+    FrKey key = fr_key_child(fr_key_child(limb, fr_purpose(FR_STEM_gnarl_fine)), side);
+    return 2 * stem->gnarl_fine * fr_noise1(key, at * stem->gnarl_fine_frequency);
+}
+
 // Two octaves of noise, in radians. Both begin at 0, so a stem sets out as it was placed.
 static double gnarl_at(const FrStem *stem, FrKey limb, uint64_t side, double at) {
     FrKey key = fr_key_child(fr_key_child(limb, fr_purpose(FR_STEM_gnarl)), side);
@@ -94,11 +100,7 @@ static double gnarl_at(const FrStem *stem, FrKey limb, uint64_t side, double at)
     double gnarl =
         fr_is_along(stem, FR_ALONG_GNARL) ? fr_along_at(stem, FR_ALONG_GNARL, at) : stem->gnarl;
     double wander = gnarl * (1.4 * fr_noise1(key, x) + 0.6 * fr_noise1(~key, 2 * x));
-    if (stem->gnarl_fine > 0) {
-        FrKey fine = fr_key_child(fr_key_child(limb, fr_purpose(FR_STEM_gnarl_fine)), side);
-        wander += 2 * stem->gnarl_fine * fr_noise1(fine, at * stem->gnarl_fine_frequency);
-    }
-    return wander;
+    return stem->gnarl_fine > 0 ? wander + trembling_at(stem, limb, side, at) : wander;
 }
 
 // The turn of a grown stem from where the walk is to `at`, fields not counted, in its own frame.
