@@ -17,6 +17,36 @@ static bool check_outputs(const CliOptions *options) {
     return true;
 }
 
+static bool has_output(const CliOptions *options, const char *const *extensions) {
+    for (guint i = 0; i < options->outputs->len; i++) {
+        char *path = g_ascii_strdown(g_ptr_array_index(options->outputs, i), -1);
+        bool is_one = false;
+        for (size_t k = 0; extensions[k] != NULL; k++) {
+            is_one |= g_str_has_suffix(path, extensions[k]);
+        }
+        g_free(path);
+        if (is_one) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Says which options nothing that is written reads.
+static void check_effects(const CliOptions *options) {
+    static const char *const gltf[] = {".glb", ".gltf", NULL};
+    static const char *const nurbs[] = {".igs", ".iges", ".stp", ".step", ".nurbs.obj", NULL};
+    if (options->leaves != FR_LEAVES_MERGED && !has_output(options, gltf)) {
+        cli_message("--leaves has no effect: it is for .glb and .gltf");
+    }
+    if (options->nurbs->len > 0 && options->outputs->len > 0 && !has_output(options, nurbs)) {
+        cli_message("--nurbs has no effect: it is for surfaces, .igs, .stp and .nurbs.obj");
+    }
+    if (options->lod > 0 && options->outputs->len == 0) {
+        cli_message("--lod has no effect: nothing is written; -o names a file");
+    }
+}
+
 static void say_written(const CliSession *session, const char *path, const FrIoStats *stats) {
     const char *sink = session->options->stats;
     if (session->options->is_quiet || (sink != NULL && strcmp(sink, "-") == 0)) {
@@ -63,6 +93,7 @@ FrStatus cli_build(CliSession *session) {
     if (!check_outputs(options)) {
         return FR_ERR_USAGE;
     }
+    check_effects(options);
     const char *path = g_ptr_array_index(options->files, 0);
     FrDocument *document;
     FrScene *scene;

@@ -108,7 +108,8 @@ static double room_at(const Branching *branching, Foot foot, double radius) {
 
 // The azimuth nearest to one wanted at which a branch is far enough from the last ones, or where it
 // is farthest.
-static G_GNUC_NO_INLINE double kept_apart(Branching *branching, double azimuth, double radius, double apart) {
+static G_GNUC_NO_INLINE double kept_apart(Branching *branching, double azimuth, double radius,
+                                          double apart) {
     Foot foot = {branching->at * branching->stem->length, azimuth}, best = foot;
     double most = -1;
     for (int k = 0; k <= ASIDE_TRIES && most < apart; k++) {

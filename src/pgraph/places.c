@@ -5,6 +5,7 @@
 #include <math.h>
 
 #define SMALLEST_GAP 0.01 // of the first
+#define MOST_GROWTH 500.0 // of the logarithm of gaps
 
 static double between(double low, double value, double high) {
     return value < low ? low : value > high ? high : value;
@@ -48,13 +49,21 @@ double fr_places_within(double stretch, double ratio) {
     return floor(gaps + 1e-6) + 1;
 }
 
+// k such gaps over all of them.
+static double part_of_gaps(double k, double all, double ratio) {
+    double growth = log(ratio);
+    if (growth * all > MOST_GROWTH) { // what exponentials can hold
+        return exp(growth * (k - all));
+    }
+    return all > 0 ? expm1(k * growth) / expm1(all * growth) : 0;
+}
+
 // Where the gaps shrink or grow: place k, shifted by a part of its gap, over all of them.
 static double part_by_ratio(const FrPlaces *places, double k, double shift) {
     double all = places->is_at_ends ? (double)places->count - 1 : (double)places->count;
-    double from = gaps_to(k, places->ratio), to = gaps_to(k + 1, places->ratio);
+    double from = part_of_gaps(k, all, places->ratio), to = part_of_gaps(k + 1, all, places->ratio);
     double inside = (places->is_at_ends ? 0 : 0.5) + shift;
-    double whole = gaps_to(all, places->ratio);
-    return whole > 0 ? (from + inside * (to - from)) / whole : 0;
+    return from + inside * (to - from);
 }
 
 double fr_place_at(const FrPlaces *places, uint32_t k) {

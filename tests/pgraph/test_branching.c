@@ -82,6 +82,13 @@ static void shrinking_gaps(void) {
         g_assert_cmpfloat_with_epsilon(gaps[k] / gaps[k - 1], 0.5, 1e-4);
     }
     built_free(built);
+    // Hundreds of gaps that grow tenfold are nothing but the last.
+    built =
+        build("tree T number=900;spacing=ends;start=0;end=1;length=1;gap-ratio=10\nleaf L\nT = L");
+    g_assert_cmpfloat_with_epsilon(height_of(&built, 0), 0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(height_of(&built, 898), 0.1, 1e-5);
+    g_assert_cmpfloat_with_epsilon(height_of(&built, 899), 1, 1e-6);
+    built_free(built);
     // By internode: 0.1 + 0.2 + 0.4 fit into a metre, the next 0.8 do not.
     built = build("tree T mode=internode;internode=.1;start=0;length=1;gap-ratio=2\nleaf L\nT = L");
     g_assert_cmpuint(built_count(&built, "L"), ==, 4);
