@@ -1,6 +1,8 @@
 /// `<material>`: its picture files must be there, named relative to the document.
 #include "document/reader.h"
 
+#include "material/unread.h"
+
 static const char *const map_attributes[FR_MAP_COUNT] = {[FR_MAP_COLOUR] = "picture",
                                                          [FR_MAP_NORMAL] = "normal-map",
                                                          [FR_MAP_ROUGHNESS] = "roughness-map"};
@@ -22,11 +24,22 @@ void fr_read_check_file(FrReader *reader, uint32_t node, const char *attribute, 
     g_free(path);
 }
 
+static char *why_unread(const void *params, const FrParam *row, const void *user) {
+    (void)user;
+    return fr_material_why_unread(params, row);
+}
+
 static void read_material(FrReader *reader, uint32_t node, const char *id) {
     const FrParamTable *table = fr_material_table();
     FrMaterialParams params;
     fr_params_init(table, &params);
+    FrStatus before = reader->status;
+    reader->status = FR_OK;
     fr_read_attributes(reader, node, FR_ELEMENT_MATERIAL, &params);
+    if (reader->status == FR_OK) {
+        fr_read_check_effects(reader, node, FR_ELEMENT_MATERIAL, &params, why_unread, NULL);
+    }
+    fr_read_note(reader, before);
     const char *files[FR_MAP_COUNT] = {[FR_MAP_COLOUR] = params.picture,
                                        [FR_MAP_NORMAL] = params.normal_map,
                                        [FR_MAP_ROUGHNESS] = params.roughness_map};

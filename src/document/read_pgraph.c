@@ -87,24 +87,8 @@ static void check_files(FrReader *reader, uint32_t node, const FrParamTable *tab
     }
 }
 
-/// Warns of attributes that say something which nothing reads beside the others.
-static void check_effects(FrReader *reader, uint32_t node, FrElementId element,
-                          const void *params) {
-    const FrXmlNode *at = &reader->tree->nodes[node];
-    FrComponentKind kind = (FrComponentKind)(element - FR_ELEMENT_COMPONENT);
-    for (uint32_t i = 0; i < at->attribute_count; i++) {
-        const FrXmlAttribute *attribute = &reader->tree->attributes[at->attribute + i];
-        char *name = fr_xml_name(reader->tree, attribute->name);
-        const FrParam *row = fr_params_find(fr_element(element).table, name);
-        char *when = row != NULL ? fr_pgraph_why_unread(kind, params, row) : NULL;
-        if (when != NULL) {
-            fr_diags_add(reader->diags, FR_WARNING, "without-effect",
-                         fr_xml_span(reader->tree, attribute->name),
-                         "'%s' has no effect here: it is read where %s", name, when);
-        }
-        g_free(when);
-        g_free(name);
-    }
+static char *why_unread(const void *params, const FrParam *row, const void *kind) {
+    return fr_pgraph_why_unread(*(const FrComponentKind *)kind, params, row);
 }
 
 static void read_component(GraphReader *graph, uint32_t node, FrElementId element) {
@@ -128,7 +112,8 @@ static void read_component(GraphReader *graph, uint32_t node, FrElementId elemen
     reader->status = FR_OK;
     fr_read_attributes(reader, node, element, params);
     if (reader->status == FR_OK) {
-        check_effects(reader, node, element, params);
+        FrComponentKind kind = (FrComponentKind)(element - FR_ELEMENT_COMPONENT);
+        fr_read_check_effects(reader, node, element, params, why_unread, &kind);
     }
     fr_read_note(reader, before);
     add_materials(graph, node, fr_element(element).table, params);

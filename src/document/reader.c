@@ -221,6 +221,25 @@ void fr_read_attributes(FrReader *reader, uint32_t node, FrElementId id, void *o
     }
 }
 
+void fr_read_check_effects(FrReader *reader, uint32_t node, FrElementId id, const void *object,
+                           FrWhyUnread why, const void *user) {
+    FrElement element = fr_element(id);
+    const FrXmlNode *at = &reader->tree->nodes[node];
+    for (uint32_t i = 0; i < at->attribute_count; i++) {
+        const FrXmlAttribute *attribute = &reader->tree->attributes[at->attribute + i];
+        const FrParam *row = find_row(reader, &element, attribute->name);
+        char *when = row != NULL ? why(object, row, user) : NULL;
+        if (when != NULL) {
+            char *name = fr_param_attribute(row);
+            fr_diags_add(reader->diags, FR_WARNING, "without-effect",
+                         fr_xml_span(reader->tree, attribute->name),
+                         "'%s' has no effect here: it is read where %s", name, when);
+            g_free(name);
+        }
+        g_free(when);
+    }
+}
+
 void fr_read_attribute(FrReader *reader, uint32_t node, const FrXmlAttribute *attribute,
                        FrElementId id, void *object) {
     FrElement element = fr_element(id);

@@ -118,6 +118,11 @@ void fr_read_check_children(FrReader *reader, uint32_t node, FrElementId id);
 /// Sets the attributes of `node` in `object`, which fr_params_init() has filled; reports unknown,
 /// wrong and missing ones.
 void fr_read_attributes(FrReader *reader, uint32_t node, FrElementId id, void *object);
+/// Says, once they are read, why a parameter has no effect beside the others; NULL if it has one.
+typedef char *(*FrWhyUnread)(const void *object, const FrParam *row, const void *user);
+/// Warns of attributes that have no effect.
+void fr_read_check_effects(FrReader *reader, uint32_t node, FrElementId id, const void *object,
+                           FrWhyUnread why, const void *user);
 /// One of them.
 void fr_read_attribute(FrReader *reader, uint32_t node, const FrXmlAttribute *attribute,
                        FrElementId id, void *object);

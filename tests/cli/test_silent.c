@@ -23,6 +23,12 @@ static const Case cases[] = {
     {"two ways to say one thing are told apart",
      GRAPH("<leaf id=\"l\" outline=\"ovate\" outline-points=\"0,0 .5,.5 1,0\"/>"), "check a.frond",
      0, "", "*'outline' has no effect here: it is read where outline-points is not given*"},
+    {"veins of a bark are said to have no effect",
+     ROOT("<material id=\"m\" texture=\"bark-plated\" vein-density=\"2\" tooth-depth=\".1\"/>"
+          "<material id=\"n\" texture=\"leaf\" vein-density=\"2\"/>"),
+     "check a.frond", 0, "",
+     "a.frond:2:*'vein-density' has no effect here: it is read where texture is leaf *"
+     "a.frond:2:*'tooth-depth' has no effect here: it is read where texture is leaf or petal *"},
     {"what needs another number says which", GRAPH("<horn id=\"h\" fork-angle=\"30\"/>"),
      "check a.frond", 0, "", "*'fork-angle' has no effect here: it is read where forks is not 0*"},
     {"an axis for a leaf has no effect",
