@@ -228,7 +228,7 @@ static void push(FrLturtle *turtle) {
                                             "the string", (FrSpan){0}, turtle->context->diags);
             return;
         }
-        turtle->capacity = MAX(64, 2 * turtle->capacity);
+        turtle->capacity = MIN(MAX(64, 2 * turtle->capacity), MOST_BRACKETS);
         turtle->stack = g_renew(FrLpose, turtle->stack, turtle->capacity);
     }
     copy_pose(&turtle->stack[turtle->depth++], &turtle->pose, turtle->keeps_all);
