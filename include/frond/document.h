@@ -110,6 +110,8 @@ typedef struct FrPlantDef {
     X(SWITCH, ground, "yes", 0, 1, "", "", "a ground to stand on")                                 \
     X(COLOUR, ground_colour, "#6b6a4e", 0, 1, "", "", "colour of the ground")                      \
     X(REAL, exposure, "0", -20, 20, "", "", "stops of exposure added to the automatic one")        \
+    X(REAL, apart, "0", 0, 1000, "", "",                                                           \
+      "plants that have grown together are shown so many times farther from their middle")         \
     X(REAL, frame_time, "0.1", 0.000001, 1000000, "a", "",                                         \
       "years from picture to picture of a sequence (render --frames)")
 

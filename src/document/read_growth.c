@@ -40,7 +40,8 @@ static void read_preset(FrReader *reader, uint32_t node, FrSpeciesDef *species) 
 /// Rows that replace those of the model, which they start from.
 static void read_orders(FrReader *reader, uint32_t node, FrSpeciesDef *species) {
     FrOrderParams model[FR_MAX_ORDERS];
-    uint32_t rows = fr_species_model(species->params.model, model);
+    bool is_open = species->params.model == FR_MODEL_OPEN;
+    uint32_t rows = is_open ? 0 : fr_species_model(species->params.model, model);
     for (uint32_t child = fr_read_first(reader, node, FR_ELEMENT_ORDER); child != FR_NONE;
          child = fr_read_next(reader, child, FR_ELEMENT_ORDER)) {
         fr_read_check_children(reader, child, FR_ELEMENT_ORDER);

@@ -383,6 +383,34 @@ FrStatus fr_ecosystem_step(FrEcosystem *ecosystem, FrScene *scene, const FrConte
     return FR_OK;
 }
 
+/// Shows plants where they stand, or farther from the middle of all.
+static void stand_apart(const FrEcosystem *ecosystem, FrScene *scene) {
+    double middle[3] = {0, 0, 0}, apart = scene->params->apart;
+    uint32_t count = fr_growth_plant_count(ecosystem->growth);
+    for (uint32_t i = 0; i < count; i++) {
+        FrSeed seed = fr_growth_seed(ecosystem->growth, i);
+        for (int axis = 0; axis < 3; axis++) {
+            middle[axis] += seed.at[axis] / count;
+        }
+    }
+    GHashTable *seeds = g_hash_table_new(NULL, NULL); // of the scene's plants, and one more
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t plant = g_array_index(ecosystem->plants, uint32_t, i);
+        g_hash_table_insert(seeds, GUINT_TO_POINTER(plant), GUINT_TO_POINTER(i + 1));
+    }
+    for (guint i = 0; i < scene->stands->len; i++) {
+        FrStand *stand = &g_array_index(scene->stands, FrStand, i);
+        guint found = GPOINTER_TO_UINT(g_hash_table_lookup(seeds, GUINT_TO_POINTER(stand->plant)));
+        if (found != 0) {
+            FrSeed seed = fr_growth_seed(ecosystem->growth, found - 1);
+            for (int axis = 0; axis < 2; axis++) {
+                stand->at[axis] = seed.at[axis] + apart * (seed.at[axis] - middle[axis]);
+            }
+        }
+    }
+    g_hash_table_unref(seeds);
+}
+
 FrStatus fr_ecosystem_draw(const FrEcosystem *ecosystem, FrScene *scene, const FrContext *context,
                            GPtrArray *old) {
     uint64_t bytes = 0;
@@ -402,6 +430,9 @@ FrStatus fr_ecosystem_draw(const FrEcosystem *ecosystem, FrScene *scene, const F
         bytes = fr_count_add(bytes, fr_plant_bytes(drawn));
         status = fr_limit_check(bytes, context->limits.bytes, "bytes", "the scene",
                                 fr_document_span(ecosystem->document), context->diags);
+    }
+    if (scene->params->apart > 0) {
+        stand_apart(ecosystem, scene);
     }
     return status;
 }

@@ -173,7 +173,7 @@ static void add_in_row(Placing *placing, const Spread *spread, const FrRow *row,
                        uint64_t k, uint64_t side) {
     bool is_shifted = row->staggered && side % 2 == 1;
     double distance = ((double)k + (is_shifted ? 0.5 : 0)) * row->spacing;
-    if (distance > line->length * (1 + 1e-9)) {
+    if (distance > line->length + 1e-6 * row->spacing) {
         return;
     }
     double at[3], along[2];

@@ -25,7 +25,8 @@ def validate(path):
 def valid(example, extension, leaves, lod):
     def test(folder):
         path = folder / f"plant{extension}"
-        stats = tap.statistics(example, "--leaves", leaves, "--lod", lod, "-o", path)
+        stats = tap.statistics(example, "--leaves", leaves, "--lod", lod, "-o", path,
+                               *tap.few_steps(example))
         report = validate(path)
         # The validator counts a shared mesh once, the statistics as often as it is drawn.
         if leaves == "merged" and stats["plants"] == 1:

@@ -34,6 +34,11 @@ def statistics(*arguments):
     return json.loads(run("build", *arguments, "--stats", "-").stdout)
 
 
+def few_steps(example):
+    """Options with which a document that grows bud by bud is soon done."""
+    return ("--steps", 7) if "<growth" in example.read_text(encoding="utf-8") else ()
+
+
 def main(tests):
     """Runs (name, function of a folder) pairs, each in a folder of its own, and prints TAP."""
     print(f"1..{len(tests)}", flush=True)

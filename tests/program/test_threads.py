@@ -13,7 +13,8 @@ def same(results):
 
 def equal_digests(example):
     def test(folder):
-        same([tap.statistics(example, "--threads", n)["digest"] for n in THREADS])
+        steps = tap.few_steps(example)
+        same([tap.statistics(example, *steps, "--threads", n)["digest"] for n in THREADS])
     return test
 
 
@@ -25,7 +26,8 @@ def equal_models(example):
         models = []
         for n in THREADS:
             path = folder / f"plant{extension}"
-            tap.run("build", example, "-q", "--lod", 2, "--threads", n, "-o", path)
+            tap.run("build", example, "-q", "--lod", 2, "--threads", n, "-o", path,
+                    *tap.few_steps(example))
             models.append(hash(path.read_bytes()))
         same(models)
     return test

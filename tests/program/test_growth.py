@@ -1,0 +1,121 @@
+"""Growth bud by bud: steps, saving, resuming, being killed, and the forest of Figure 8."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import frond_tap as tap
+
+PLANTS = tap.SOURCE / "examples" / "close-plants.frond"
+PARTS = tap.SOURCE / "examples" / "crown-parts.frond"
+FOREST = tap.SOURCE / "examples" / "forest-road.frond"
+
+
+def digests(*arguments):
+    return [step["digest"] for step in tap.statistics(*arguments)["per_step"]]
+
+
+def equal_steps(folder):
+    results = [digests(PLANTS, "--steps", 12, "--threads", n) for n in (1, 2, 3, 8)]
+    assert len(set(results[0])) == 12, "every step changes something"
+    assert all(result == results[0] for result in results)
+
+
+def resumed_at_every_step(folder):
+    whole = tap.statistics(PARTS, "--steps", 9)
+    saved = folder / "saved"
+    for step in range(1, 9):
+        tap.run("build", PARTS, "-q", "--steps", step, "--checkpoint", saved)
+        stats = tap.statistics(PARTS, "--steps", 9, "--resume", saved)
+        assert stats["digest"] == whole["digest"], step
+        assert [s["digest"] for s in stats["per_step"]] == [s["digest"] for s in whole["per_step"]]
+
+
+def killed(folder):
+    """However a run is killed, its checkpoint is whole and no more than a step old."""
+    whole = digests(PARTS, "--steps", 14)
+    for k, wait in enumerate((0.15, 0.3, 0.5, 0.8, 1.2)):
+        saved = folder / f"saved{k}"
+        run = subprocess.Popen([tap.PROGRAM, "build", str(PARTS), "-q", "--steps", "400",
+                                "--checkpoint", str(saved)], stderr=subprocess.DEVNULL)
+        while not saved.exists():
+            time.sleep(0.01)
+        time.sleep(wait)
+        os.kill(run.pid, signal.SIGKILL)
+        run.wait()
+        stats = tap.statistics(PARTS, "--steps", 0, "--resume", saved)
+        reached = [step["digest"] for step in stats["per_step"]]
+        assert reached, "a step at least was saved"
+        assert reached[:14] == whole[:len(reached)]
+
+
+def refused(folder):
+    saved = folder / "saved"
+    tap.run("build", PARTS, "-q", "--steps", 3, "--checkpoint", saved)
+    cases = [((PLANTS, "--resume", saved), "other-document"),
+             ((PARTS, "--seed", 5, "--resume", saved), "other-document"),
+             ((PARTS, "--set", "left.species.step=0.3", "--resume", saved), "other-document"),
+             ((PARTS, "--resume", PARTS), "not-a-checkpoint")]
+    whole = saved.read_bytes()
+    # The version stands behind sixteen bytes that say what the file is.
+    other = folder / "other"
+    other.write_bytes(whole[:16] + b"9.9.9\0" + whole[22:])
+    cases.append(((PARTS, "--resume", other), "other-version"))
+    for case, code in cases:
+        said = tap.run("build", *case, status=1).stderr
+        assert f"[{code}]" in said, said
+    nothing = tap.run("build", tap.SOURCE / "examples" / "figure2.frond", "--resume", saved, status=2)
+    assert "grows bud by bud" in nothing.stderr
+
+
+def damaged(folder):
+    """Any byte that is wrong or missing is noticed."""
+    saved, broken = folder / "saved", folder / "broken"
+    tap.run("build", PARTS, "-q", "--steps", 2, "--checkpoint", saved)
+    whole = saved.read_bytes()
+    for at in range(0, len(whole), max(1, len(whole) // 60)):
+        broken.write_bytes(whole[:at] + bytes([whole[at] ^ 0x41]) + whole[at + 1:])
+        tap.run("build", PARTS, "-q", "--resume", broken, status=1)
+        broken.write_bytes(whole[:at])
+        tap.run("build", PARTS, "-q", "--resume", broken, status=1)
+
+
+def frames(folder):
+    tap.run("render", PARTS, "-q", "-o", folder / "grow.png", "--frames", "2..4", "--size", "40x30",
+            "--samples", 1)
+    pictures = sorted(path.name for path in folder.glob("*.png"))
+    assert pictures == ["grow-0002.png", "grow-0003.png", "grow-0004.png"], pictures
+    assert len({(folder / name).read_bytes() for name in pictures}) == 3
+
+
+def forest(folder):
+    stats = tap.statistics(FOREST)
+    assert stats["steps"] == 14
+    for key, least in (("plants", 140), ("active_buds", 50000), ("axes", 224000), ("organs", 238000)):
+        assert stats[key] >= least, (key, stats[key])
+    last = stats["per_step"][-1]
+    for key in ("seconds", "nodes", "active_buds", "shed", "collisions", "rays_recast"):
+        assert key in last, key
+
+
+def checked_soon(folder):
+    """What is wrong with a growth is said without growing it."""
+    began = time.monotonic()
+    tap.run("check", FOREST)
+    assert time.monotonic() - began < 5
+
+
+TESTS = [("/program/growth/every step has one digest for any number of threads", equal_steps),
+         ("/program/growth/a run resumed at any step ends as one that was not broken off",
+          resumed_at_every_step),
+         ("/program/growth/a run that is killed loses a step at most", killed),
+         ("/program/growth/checkpoints of other documents, seeds and versions are refused", refused),
+         ("/program/growth/damaged checkpoints are refused", damaged),
+         ("/program/growth/frames show the steps", frames),
+         ("/program/growth/the forest has the numbers of Figure 8", forest),
+         ("/program/growth/checking does not grow", checked_soon)]
+
+if __name__ == "__main__":
+    sys.exit(tap.main(TESTS))
