@@ -18,12 +18,12 @@ static void test_species(void) {
                                 "<order length='2'/><sliders twist='0.5'/></species>"));
     g_assert_cmpint(parsed.status, ==, FR_OK);
     const FrSpeciesDef *species = species_of(&parsed);
-    g_assert_cmpfloat(species->params.step, ==, 0.7);           // given
-    g_assert_cmpfloat(species->params.phototropism, ==, 0.01);  // of the preset
+    g_assert_cmpfloat(species->params.step, ==, 0.7);          // given
+    g_assert_cmpfloat(species->params.phototropism, ==, 0.01); // of the preset
     g_assert_cmpuint(species->order_count, ==, 1);
     FrOrderParams rows[FR_MAX_ORDERS];
     g_assert_cmpuint(fr_species_model(species->params.model, rows), >, 0);
-    g_assert_cmpfloat(species->orders[0].length, ==, 2);        // given
+    g_assert_cmpfloat(species->orders[0].length, ==, 2);            // given
     g_assert_cmpfloat(species->orders[0].angle, ==, rows[0].angle); // of the model
     g_assert_cmpfloat(species->sliders.twist, ==, 0.5);
     forget(&parsed);

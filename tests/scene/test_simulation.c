@@ -31,8 +31,8 @@ static Run begin(const char *text, uint32_t history) {
     Run run = {.context = fr_context_default()};
     run.context.diags = fr_diags_new();
     run.document = parse(text, &run.context);
-    g_assert_cmpint(
-        fr_simulation_new(run.document, -1, history, &run.context, &run.simulation), ==, FR_OK);
+    g_assert_cmpint(fr_simulation_new(run.document, -1, history, &run.context, &run.simulation), ==,
+                    FR_OK);
     return run;
 }
 
@@ -111,8 +111,7 @@ static void test_change_refused(void) {
     FrDocument *fewer = parse("<frond version='1'><plant id='a'><species/></plant><scene>" WORLD
                               "<place plant='a'/></scene></frond>",
                               &run.context);
-    g_assert_cmpint(fr_simulation_change(run.simulation, fewer, &run.context), ==,
-                    FR_ERR_DOCUMENT);
+    g_assert_cmpint(fr_simulation_change(run.simulation, fewer, &run.context), ==, FR_ERR_DOCUMENT);
     g_assert_cmpuint(digest(&run), ==, before);
     step(&run, 1);
     end(&run);
@@ -215,12 +214,11 @@ static bool is_free(const FrSolids *solids, vec3s p, vec3s q) {
 }
 
 static void test_obstacles(void) {
-    Run run = begin(SCENE("",
-                          "<obstacle shape='sphere' at='0.2,0.3,1' size='1.5,1.5,1.5'/>"
-                          "<obstacle at='-1.5,0,0.7' size='1,2,2' turn='20' visible='no'/>"
-                          "<obstacle shape='sweep' size='0.5,1,0.5'>-3,1.5,2 3,1.5,2</obstacle>"
-                          "<row plants='a, b' rows='3' between='1.1' spacing='1.1'>-2,0,0 2,0,0"
-                          "</row>"),
+    Run run = begin(SCENE("", "<obstacle shape='sphere' at='0.2,0.3,1' size='1.5,1.5,1.5'/>"
+                              "<obstacle at='-1.5,0,0.7' size='1,2,2' turn='20' visible='no'/>"
+                              "<obstacle shape='sweep' size='0.5,1,0.5'>-3,1.5,2 3,1.5,2</obstacle>"
+                              "<row plants='a, b' rows='3' between='1.1' spacing='1.1'>-2,0,0 2,0,0"
+                              "</row>"),
                     0);
     step(&run, 9);
     const FrScene *scene;
@@ -257,10 +255,9 @@ static FrDigest grown(const char *scene) {
 /// A lid over a plant darkens it, unless it cannot be seen.
 static void test_clear(void) {
     FrDigest open = grown(SCENE("", "<place plant='a'/>"));
-    FrDigest lid = grown(
-        SCENE("", "<place plant='a'/><obstacle at='0,0,5' size='11,11,0.2'/>"));
-    FrDigest clear = grown(
-        SCENE("", "<place plant='a'/><obstacle at='0,0,5' size='11,11,0.2' visible='no'/>"));
+    FrDigest lid = grown(SCENE("", "<place plant='a'/><obstacle at='0,0,5' size='11,11,0.2'/>"));
+    FrDigest clear =
+        grown(SCENE("", "<place plant='a'/><obstacle at='0,0,5' size='11,11,0.2' visible='no'/>"));
     g_assert_cmpuint(clear, ==, open);
     g_assert_cmpuint(lid, !=, open);
 }
@@ -287,11 +284,20 @@ static void test_envelope(void) {
 
 /// An L-system that tells the light, beside a plant that grows bud by bud, and the other way round.
 static void test_lsystem(void) {
-    static const char text[] =
-        "<frond version='1'><plant id='a'>" SPECIES("laterals='3' leaves='6' leaf-length='0.5' leaf-width='0.4'") "</plant>"
-        "<plant id='l'><lsystem><![CDATA[\nlsystem: 1\nderivation length: 9\n"
-        "Axiom: F(0.4)?E(0)\n?E(x) --> F(0.1*x)?E(0)\nendlsystem\n]]></lsystem></plant><scene>" WORLD
-        "<light/><place plant='l' at='0.25,0,0'/>%s</scene></frond>";
+    static const char text[] = "<frond version='1'><plant id='a'>" SPECIES(
+        "laterals='3' leaves='6' leaf-length='0.5' leaf-width='0.4'") "</plant>"
+                                                                      "<plant "
+                                                                      "id='l'><lsystem><![CDATA["
+                                                                      "\nlsystem: 1\nderivation "
+                                                                      "length: 9\n"
+                                                                      "Axiom: F(0.4)?E(0)\n?E(x) "
+                                                                      "--> "
+                                                                      "F(0.1*x)?E(0)\nendlsystem\n]"
+                                                                      "]></lsystem></"
+                                                                      "plant><scene>" WORLD
+                                                                      "<light/><place plant='l' "
+                                                                      "at='0.25,0,0'/>%s</scene></"
+                                                                      "frond>";
     char *alone = g_strdup_printf(text, "");
     char *beside = g_strdup_printf(text, "<place plant='a'/>");
     FrContext context = fr_context_default();
