@@ -35,6 +35,7 @@ static inline void bench_keep(const void *data) {
 void bench_plant(void);
 void bench_expr(void);
 void bench_pgraph(void);
+void bench_growth(void);
 void bench_lsystem(void);
 void bench_skin(void);
 void bench_rebuild(void);

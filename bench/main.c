@@ -13,7 +13,7 @@ static const struct {
     {"plant", bench_plant},         {"expr", bench_expr},   {"pgraph", bench_pgraph},
     {"lsystem", bench_lsystem},     {"skin", bench_skin},   {"rebuild", bench_rebuild},
     {"variation", bench_variation}, {"nurbs", bench_nurbs}, {"density", bench_density},
-    {"light", bench_light},         {"io", bench_io},
+    {"light", bench_light},         {"io", bench_io},       {"growth", bench_growth},
 };
 
 static GArray *results; // BenchResult
@@ -125,7 +125,7 @@ int main(int argc, char **argv) {
     if (unknown != 0) {
         fprintf(stderr,
                 "usage: frond-bench [plant] [expr] [pgraph] [lsystem] [skin] [rebuild] [variation] "
-                "[nurbs] [density] [io] [--json]\n");
+                "[nurbs] [density] [growth] [io] [--json]\n");
         return 2;
     }
     if (is_json) {

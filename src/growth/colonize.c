@@ -286,8 +286,14 @@ static void add_bud(FrGrowth *growth, const Site *site, vec3s direction, uint32_
     bud->state = FR_LIVE_GROWING;
 }
 
-/// Buds where nodes are drawn; a plant that nothing has drawn yet rises on its first axis.
+static int compare_sites(const void *a, const void *b) {
+    uint32_t one = *(const uint32_t *)a, other = *(const uint32_t *)b;
+    return one < other ? -1 : one > other;
+}
+
+/// Buds where nodes are drawn, older nodes first.
 static void grow_pulled(FrGrowth *growth, FrColony *colony) {
+    g_array_sort(colony->pulled, compare_sites);
     for (guint k = 0; k < colony->pulled->len; k++) {
         uint32_t s = g_array_index(colony->pulled, uint32_t, k);
         Pull *pull = &g_array_index(colony->pulls, Pull, s);
@@ -309,6 +315,7 @@ static void grow_pulled(FrGrowth *growth, FrColony *colony) {
     }
 }
 
+/// A plant that nothing has drawn yet rises on its first axis.
 static void rise(FrGrowth *growth) {
     for (uint32_t p = 0; p < growth->plant_count; p++) {
         FrGrownPlant *plant = &growth->plants[p];

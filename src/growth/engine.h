@@ -155,10 +155,11 @@ struct FrGrowth {
     FrLight *light; ///< borrowed, NULL: that of the parameters
     const FrLamp *lamps;
     uint32_t lamp_count;
-    FrParticles *particles;  ///< NULL: none
-    struct FrColony *colony; ///< of plants that colonize space; NULL: to be made anew
-    FrShadows *shadows;      ///< that nodes cast; NULL: none yet
-    GArray **fallen;         ///< by worker: where fallen internodes cast shadows
+    FrParticles *particles;           ///< NULL: none
+    struct FrColony *colony;          ///< of plants that colonize space; NULL: to be made anew
+    struct FrOtherScene *other_scene; ///< that `light` reads; NULL: none yet
+    FrShadows *shadows;               ///< that nodes cast; NULL: none yet
+    GArray **fallen;                  ///< by worker: where fallen internodes cast shadows
     FrGrownPlant *plants;
     uint32_t plant_count;
     FrOwner *owners; ///< by number in the voxels
@@ -213,6 +214,14 @@ void fr_growth_colonize(FrGrowth *growth, const FrContext *context);
 void fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
                        const FrContext *context);
 
+// ---- other_light.c ----------------------------------------------------------------------------
+typedef struct FrOtherScene FrOtherScene;
+
+void fr_other_scene_free(FrOtherScene *scene);
+/// The light of buds as the caller's backend sees it.
+FrStatus fr_growth_ask_light(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+                             const FrContext *context);
+
 // ---- light.c, sky.c -----------------------------------------------------------------------------
 /// Takes the shadows of what has fallen back, and casts those of this step's internodes.
 void fr_growth_recast(FrGrowth *growth, const FrContext *context);
@@ -233,7 +242,8 @@ FrLiveBud *fr_grown_add_bud(FrGrownPlant *plant);
 void fr_grown_clear(FrGrownPlant *plant);
 FrDigest fr_grown_digest(const FrGrownPlant *plant);
 void fr_grown_reserve(FrGrownPlant *plant, uint32_t nodes, uint32_t axes, uint32_t buds);
-/// Where an internode begins, in the world.
+/// Where an internode ends, in the world, and where it begins.
+vec3s fr_grown_tip(const FrGrownPlant *plant, uint32_t node);
 vec3s fr_grown_base(const FrGrownPlant *plant, uint32_t node);
 uint64_t fr_grown_bytes(const FrGrownPlant *plant);
 

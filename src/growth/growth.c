@@ -189,6 +189,7 @@ void fr_growth_free(FrGrowth *growth) {
         return;
     }
     fr_growth_drop_state(growth);
+    fr_other_scene_free(growth->other_scene);
     drop_species(growth);
     drop_obstacles(growth);
     g_free(growth->proposals);
@@ -235,11 +236,7 @@ FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup, const Fr
 }
 
 vec3s fr_bud_world(const FrGrownPlant *plant, const FrLiveBud *bud) {
-    vec3s at = bud->node == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[bud->node];
-    for (int axis = 0; axis < 3; axis++) {
-        at.raw[axis] = (float)(plant->seed.at[axis] + (double)at.raw[axis]);
-    }
-    return at;
+    return fr_grown_tip(plant, bud->node);
 }
 
 /// The one bud that a plant begins with.

@@ -36,11 +36,7 @@ static void gather_shades(const FrGrowth *growth, FrShades *shades) {
         float side = sqrtf((float)fr_species_of(growth, plant)->params.foliage);
         for (uint32_t i = 0; side > 0 && i < plant->nodes.count; i++) {
             if (fr_grown_is_leafy(growth, plant, i)) {
-                vec3s at = plant->nodes.at[i];
-                for (int axis = 0; axis < 3; axis++) {
-                    at.raw[axis] = (float)(plant->seed.at[axis] + (double)at.raw[axis]);
-                }
-                add_shade(shades, at, side);
+                add_shade(shades, fr_grown_tip(plant, i), side);
             }
         }
     }
@@ -180,6 +176,9 @@ static void full_light(const FrGrowth *growth, const FrLiveBudAt *buds, uint32_t
 
 FrStatus fr_growth_light(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
                          const FrContext *context) {
+    if (growth->light != NULL) {
+        return fr_growth_ask_light(growth, buds, count, context);
+    }
     switch (growth->params.light) {
     case FR_GROWTH_VIEWS:
         look_at_sky(growth, buds, count, context);

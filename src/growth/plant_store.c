@@ -110,13 +110,16 @@ uint64_t fr_grown_bytes(const FrGrownPlant *plant) {
            plant->bud_count * sizeof(FrLiveBud);
 }
 
-vec3s fr_grown_base(const FrGrownPlant *plant, uint32_t node) {
-    uint32_t parent = plant->nodes.parent[node];
-    vec3s at = parent == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[parent];
+vec3s fr_grown_tip(const FrGrownPlant *plant, uint32_t node) {
+    vec3s at = node == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[node];
     for (int axis = 0; axis < 3; axis++) {
         at.raw[axis] = (float)(plant->seed.at[axis] + (double)at.raw[axis]);
     }
     return at;
+}
+
+vec3s fr_grown_base(const FrGrownPlant *plant, uint32_t node) {
+    return fr_grown_tip(plant, plant->nodes.parent[node]);
 }
 
 void *fr_scratch_take(FrScratch *scratch, size_t size) {
