@@ -90,11 +90,13 @@ static void bench_forest(int threads) {
     params->foliage = 0.2;
     params->influence = 6;
     params->kill = 2;
-    set_order(&world.species, 4, 0, 50);
+    params->max_order = 4;
+    set_order(&world.species, 3, 0, 50);
     set_order(&world.species, 3, 0, 50);
     set_order(&world.species, 3, 3, 45);
-    set_order(&world.species, 2, 2, 45);
-    set_order(&world.species, 2, 1, 45);
+    set_order(&world.species, 3, 2, 45);
+    set_order(&world.species, 1, 1, 45);
+    set_order(&world.species, 0, 1, 45);
     vec3s corners[8];
     FrGrowthObstacle clearance = road(corners);
     world.setup.obstacles = &clearance;
@@ -106,14 +108,13 @@ static void bench_forest(int threads) {
     step(&world, 14);
     double seconds = bench_now() - world.begin, processor = bench_processor() - world.processor;
     FrGrowthStats stats = fr_growth_stats(world.growth);
-    bench_tell("growth.forest", (double)stats.nodes / seconds, 0, "nodes/s",
-               "%d thread(s): %.2f s, %.2f s of processor; %" G_GUINT64_FORMAT
-               " plants, %" G_GUINT64_FORMAT " axes, %" G_GUINT64_FORMAT
-               " internodes, %" G_GUINT64_FORMAT " leaves, %" G_GUINT64_FORMAT
-               " growing buds; %.0f bytes an internode, %.0f MB of cells",
-               threads, seconds, processor, stats.plants, stats.axes, stats.nodes, stats.leaves,
-               stats.active_buds, (double)stats.bytes / (double)stats.nodes,
-               (double)stats.cells / 1e6);
+    bench_tell(
+        "growth.forest", (double)stats.nodes / seconds, 0, "nodes/s",
+        "%d thread(s): %.2f s, %.2f s of processor; %" G_GUINT64_FORMAT
+        " plants, %" G_GUINT64_FORMAT " axes, %" G_GUINT64_FORMAT " internodes, %" G_GUINT64_FORMAT
+        " leaves, %" G_GUINT64_FORMAT " growing buds; %.0f bytes an internode, %.0f MB of cells",
+        threads, seconds, processor, stats.plants, stats.axes, stats.nodes, stats.leaves,
+        stats.active_buds, (double)stats.bytes / (double)stats.nodes, (double)stats.cells / 1e6);
     end(&world);
 }
 
@@ -133,7 +134,7 @@ static World palubicki(int threads) {
 }
 
 static void bench_palubicki(int threads) {
-    static const double published[] = {1,    9,    28,    72,    180,   441,    1053,   2501,
+    static const double published[] = {1,    9,     28,    72,    180,    441,    1053,   2501,
                                        5867, 13676, 31163, 68732, 143753, 273481, 450285, 642195};
     World world = palubicki(threads);
     double worst = 0, seconds = 0, processor = 0;
@@ -162,7 +163,7 @@ static void bench_close_forest(int threads) {
     FR_ASSERT(is_known);
     params->step = 0.02;
     params->favour = params->favour_old = 0.5;
-    params->vigour = 2;
+    params->vigour = 1.7;
     params->vigour_base = 1;
     params->branching_angle = G_PI / 4;
     params->collide = true;
@@ -177,7 +178,7 @@ static void bench_close_forest(int threads) {
     params->gravitropism = 0.1;
     world.setup.params.min = (vec3s){{-4, -4, 0}};
     world.setup.params.max = (vec3s){{4, 4, 4}};
-    world.setup.params.cell = 0.0025;
+    world.setup.params.cell = 0.01;
     uint64_t born = 0;
     double seconds = 0, processor = 0;
     sow(&world, 12, 12, 0.6);
@@ -210,8 +211,8 @@ static FrParticle *ball_of(uint32_t count) {
                 squared += at[axis] * at[axis];
             }
         }
-        particles[i] = (FrParticle){
-            .at = {{(float)at[0], (float)at[1], (float)at[2]}}, .w = 1, .kill = -1};
+        particles[i] =
+            (FrParticle){.at = {{(float)at[0], (float)at[1], (float)at[2]}}, .w = 1, .kill = -1};
     }
     return particles;
 }

@@ -1,4 +1,5 @@
-// Light by a backend that the caller has made: leafy nodes are level squares, obstacles what they are.
+// Light by a backend that the caller has made: leafy nodes are level squares, obstacles what they
+// are.
 #include "growth/engine.h"
 
 #include <cglm/struct.h>

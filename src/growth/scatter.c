@@ -6,13 +6,16 @@
 
 enum { TRIES = 64 };
 
-/// The widest influence of the species: how far the grid is mostly asked.
-static float widest_influence(const FrGrowth *growth) {
-    double widest = 0;
+/// How far the grid is mostly asked. Plants that colonize space ask dense particles, for which
+/// small cells are worth while.
+static float usual_reach(const FrGrowth *growth) {
+    float reach = 0;
     for (uint32_t i = 0; i < growth->species_count; i++) {
-        widest = MAX(widest, growth->species[i].params.influence);
+        const FrSpeciesParams *params = &growth->species[i].params;
+        float factor = params->fate == FR_FATE_COLONIZE ? 1 : 2;
+        reach = fmaxf(reach, factor * (float)params->influence);
     }
-    return (float)widest;
+    return reach;
 }
 
 FrStatus fr_growth_add_particles(FrGrowth *growth, const FrParticle *particles, uint64_t count,
@@ -35,8 +38,7 @@ FrStatus fr_growth_add_particles(FrGrowth *growth, const FrParticle *particles, 
         fr_particles_free(growth->particles);
         fr_colony_free(growth->colony);
         growth->colony = NULL;
-        growth->particles =
-            fr_particles_new(all, (uint32_t)(old + count), widest_influence(growth));
+        growth->particles = fr_particles_new(all, (uint32_t)(old + count), usual_reach(growth));
     }
     g_free(all);
     return status;
@@ -205,7 +207,7 @@ bool fr_growth_take_particles(FrGrowth *growth, FrBytesReader *reader) {
                    it->influence >= 0;
     }
     if (is_right && count > 0) {
-        growth->particles = fr_particles_new(particles, (uint32_t)count, widest_influence(growth));
+        growth->particles = fr_particles_new(particles, (uint32_t)count, usual_reach(growth));
     }
     g_free(particles);
     return is_right;

@@ -184,8 +184,8 @@ static bool meets(const double from[3], const double to[3], const double corner[
 
 /// E02, E13: branches of plants around an octahedron go nowhere through it.
 static void test_obstacle(void) {
-    static const vec3s corners[6] = {{{1.1f, 0, 1.5f}}, {{-1.1f, 0, 1.5f}}, {{0, 1.1f, 1.5f}},
-                                     {{0, -1.1f, 1.5f}}, {{0, 0, 2.6f}},    {{0, 0, 0.4f}}};
+    static const vec3s corners[6] = {{{1.1f, 0, 1.5f}},  {{-1.1f, 0, 1.5f}}, {{0, 1.1f, 1.5f}},
+                                     {{0, -1.1f, 1.5f}}, {{0, 0, 2.6f}},     {{0, 0, 0.4f}}};
     static const uint32_t indices[] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
                                        2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
     FrGrowthObstacle stone = {
@@ -243,7 +243,9 @@ static void test_apart(void) {
     world_set(&world, "auxin-reach", "1");
     world_set(&world, "step", "0.25");
     world.setup.params.cell = 0.04;
-    FrSeed seeds[4] = {{.id = 1}, {.at = {0.4, 0, 0}, .id = 2}, {.at = {0, 0.4, 0}, .id = 3},
+    FrSeed seeds[4] = {{.id = 1},
+                       {.at = {0.4, 0, 0}, .id = 2},
+                       {.at = {0, 0.4, 0}, .id = 3},
                        {.at = {0.4, 0.4, 0}, .id = 4}};
     world_sow(&world, seeds, 4);
     FrGrowthStats stats = world_step(&world, 9);
@@ -496,7 +498,8 @@ static void test_level_leaves(void) {
 
 // ---- particles --------------------------------------------------------------------------------
 
-/// E11: a direction at infinity draws every bud; a place draws those near it, and dies when reached.
+/// E11: a direction at infinity draws every bud; a place draws those near it, and dies when
+/// reached.
 static void test_particles(void) {
     World world;
     plain(&world);
