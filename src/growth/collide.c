@@ -3,6 +3,8 @@
 // once; only where one is set is asked whose it is.
 #include "growth/propose.h"
 
+#include <math.h>
+
 static void world_of(const FrGrownPlant *plant, vec3s at, double world[3]) {
     for (int axis = 0; axis < 3; axis++) {
         world[axis] = plant->seed.at[axis] + (double)at.raw[axis];
@@ -14,6 +16,13 @@ uint32_t fr_growth_walk(const FrGrowth *growth, const FrGrownPlant *plant, uint3
     double begin[3], end[3];
     world_of(plant, parent == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[parent], begin);
     world_of(plant, to, end);
+    double crossed = 3;
+    for (int axis = 0; axis < 3; axis++) {
+        crossed += fabs(end[axis] - begin[axis]) / growth->voxels->cell;
+    }
+    if (crossed >= FR_WALK_CELLS) {
+        return 0; // longer than what takes part in collision may become
+    }
     return fr_voxels_walk(growth->voxels, begin, end, cells);
 }
 
@@ -126,7 +135,7 @@ bool fr_growth_is_free(const FrGrowth *growth, FrProposal *proposal, FrCell *cel
     }
     proposal->cell_count =
         fr_growth_walk(growth, plant, plant->buds[proposal->bud].node, proposal->at, cells);
-    return !segment_blocks(growth, proposal, cells, false);
+    return proposal->cell_count > 0 && !segment_blocks(growth, proposal, cells, false);
 }
 
 bool fr_growth_is_first(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {

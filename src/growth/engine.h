@@ -249,7 +249,8 @@ uint64_t fr_grown_bytes(const FrGrownPlant *plant);
 
 /// At least so many bytes, as they are.
 void *fr_scratch_take(FrScratch *scratch, size_t size);
-/// Cells of an internode from the tip of `parent` (FR_NONE: the seed) to a place.
+/// Cells of an internode from the tip of `parent` (FR_NONE: the seed) to a place; none if it is too
+/// long.
 uint32_t fr_growth_walk(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t parent,
                         vec3s to, FrCell *cells);
 

@@ -99,6 +99,11 @@ static bool is_finite3(vec3s vector) {
     return isfinite(vector.x) && isfinite(vector.y) && isfinite(vector.z);
 }
 
+static bool is_unit(vec3s vector) {
+    float squared = vector.x * vector.x + vector.y * vector.y + vector.z * vector.z;
+    return squared > 0.99f && squared < 1.01f; // and a number
+}
+
 /// True if a place of the plant lies in the arena.
 static bool is_inside(const FrGrowth *growth, const FrGrownPlant *plant, vec3s at) {
     for (int axis = 0; axis < 3; axis++) {
@@ -150,7 +155,7 @@ static bool buds_are_right(const FrGrowth *growth, const FrGrownPlant *plant) {
         const FrLiveBud *bud = &plant->buds[i];
         if (!is_node(plant, bud->node) || bud->axis >= plant->axis_count ||
             bud->state > FR_LIVE_DONE || bud->row > MAX(rows, FR_MAX_ORDERS) ||
-            !is_finite3(bud->direction) || !is_finite3(bud->side) || !is_finite3(bud->brightest) ||
+            !is_unit(bud->direction) || !is_unit(bud->side) || !is_finite3(bud->brightest) ||
             !is_finite3(bud->attraction) || !(bud->light >= 0 && bud->light <= 1) ||
             !isfinite(bud->vigour) || bud->is_relay > 1) {
             return false;
