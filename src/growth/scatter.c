@@ -102,12 +102,7 @@ void fr_growth_reach_particles(FrGrowth *growth) {
             continue;
         }
         for (uint32_t i = plant->nodes.count - plant->born; i < plant->nodes.count; i++) {
-            vec3s world;
-            for (int axis = 0; axis < 3; axis++) {
-                world.raw[axis] =
-                    (float)(plant->seed.at[axis] + (double)plant->nodes.at[i].raw[axis]);
-            }
-            fr_particles_kill(growth->particles, world, (float)params->kill);
+            fr_particles_kill(growth->particles, fr_grown_tip(plant, i), (float)params->kill);
         }
     }
 }
