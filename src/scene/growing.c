@@ -310,7 +310,7 @@ FrStatus fr_growing_begin(FrGrowing *growing, const FrScene *scene, const FrCont
 }
 
 FrStatus fr_growing_run(FrGrowing *growing, FrScene *scene, const FrContext *context) {
-    FrStatus status = fr_growing_begin(growing, scene, context);
+    FrStatus status = FR_OK;
     uint64_t longest;
     while (status == FR_OK && is_any_growing(growing, &longest)) {
         status = fr_growing_step(growing, scene, context);

@@ -37,5 +37,5 @@ FR_MUST_USE FrStatus fr_growing_step(FrGrowing *growing, FrScene *scene, const F
 /// The plants as they stand in the end.
 FR_MUST_USE FrStatus fr_growing_finish(FrGrowing *growing, FrScene *scene,
                                        const FrContext *context);
-/// Grows them all to their ends.
+/// Grows them all to their ends, from where fr_growing_begin() put them.
 FR_MUST_USE FrStatus fr_growing_run(FrGrowing *growing, FrScene *scene, const FrContext *context);
