@@ -125,7 +125,6 @@ typedef enum FrCap {
 typedef enum FrJunction {
     FR_JUNCTION_COLLAR, ///< on its surface, with its normals
     FR_JUNCTION_PLAIN,  ///< a tube that begins within it
-    FR_JUNCTION_WELDED, ///< one surface: the parent has a hole there and shares its margin
 } FrJunction;
 
 /// What makes the surface of an axis more than a plain tube. Only skin reads it. Ridges and relief
