@@ -12,12 +12,15 @@ struct _StudioTimeStrip {
     StudioDocument *document; // borrowed
     char *lsystem;            // place of the <lsystem>; NULL: the clock is shown
     gboolean is_showing, is_running, is_moved;
+    gboolean is_growing;
+    uint64_t step, step_count;
     GtkWidget *stack, *play, *scale, *span, *years, *back, *steps;
+    GtkWidget *grow, *begin, *undo, *grown;
 };
 
 enum { FRAMES = 120 }; // from the beginning of the scale to its end
 
-static guint time_signal;
+static guint time_signal, step_signal;
 
 G_DEFINE_TYPE(StudioTimeStrip, studio_time_strip, GTK_TYPE_BOX)
 
@@ -43,6 +46,7 @@ static void on_scale(GtkRange *range, StudioTimeStrip *strip) {
 static void stop(StudioTimeStrip *strip) {
     strip->is_running = FALSE;
     gtk_button_set_icon_name(GTK_BUTTON(strip->play), "media-playback-start-symbolic");
+    gtk_button_set_icon_name(GTK_BUTTON(strip->grow), "media-playback-start-symbolic");
 }
 
 static void on_back(GtkButton *button, StudioTimeStrip *strip) {
@@ -62,8 +66,20 @@ static void on_span(GtkSpinButton *spin, StudioTimeStrip *strip) {
     gtk_range_set_increments(GTK_RANGE(strip->scale), span / 100, span / 10);
 }
 
+static void go_to_step(StudioTimeStrip *strip, uint64_t step) {
+    g_signal_emit(strip, step_signal, 0, (gint64)step);
+}
+
 void studio_time_strip_continue(StudioTimeStrip *strip) {
     if (!strip->is_running) {
+        return;
+    }
+    if (strip->is_growing) {
+        if (strip->step >= strip->step_count) {
+            stop(strip);
+        } else {
+            go_to_step(strip, strip->step + 1);
+        }
         return;
     }
     double span = gtk_spin_button_get_value(GTK_SPIN_BUTTON(strip->span));
@@ -86,6 +102,78 @@ static void on_play(GtkButton *button, StudioTimeStrip *strip) {
     strip->is_running = TRUE;
     gtk_button_set_icon_name(button, "media-playback-pause-symbolic");
     studio_time_strip_continue(strip);
+}
+
+// ---- growth bud by bud -------------------------------------------------------------------------
+
+static void on_grow(GtkButton *button, StudioTimeStrip *strip) {
+    if (strip->is_running) {
+        stop(strip);
+        return;
+    }
+    strip->is_running = TRUE;
+    gtk_button_set_icon_name(button, "media-playback-pause-symbolic");
+    go_to_step(strip, strip->step >= strip->step_count ? 0 : strip->step + 1);
+}
+
+static void on_one_step(GtkButton *button, StudioTimeStrip *strip) {
+    (void)button;
+    stop(strip);
+    go_to_step(strip, strip->step + 1);
+}
+
+static void on_step_back(GtkButton *button, StudioTimeStrip *strip) {
+    (void)button;
+    stop(strip);
+    if (strip->step > 0) {
+        go_to_step(strip, strip->step - 1);
+    }
+}
+
+static void on_begin(GtkButton *button, StudioTimeStrip *strip) {
+    (void)button;
+    stop(strip);
+    go_to_step(strip, 0);
+}
+
+void studio_time_strip_show_growth(StudioTimeStrip *strip, uint64_t step, uint64_t count) {
+    strip->is_growing = TRUE;
+    strip->step = step;
+    strip->step_count = count;
+    char *text = g_strdup_printf("Step %" G_GUINT64_FORMAT " of %" G_GUINT64_FORMAT, step, count);
+    gtk_label_set_text(GTK_LABEL(strip->grown), text);
+    gtk_widget_set_sensitive(strip->undo, step > 0);
+    gtk_widget_set_sensitive(strip->begin, step > 0);
+    gtk_stack_set_visible_child_name(GTK_STACK(strip->stack), "growth");
+    g_free(text);
+}
+
+static GtkWidget *growth_button(StudioTimeStrip *strip, GtkWidget *box, const char *icon,
+                                const char *tip, GCallback callback) {
+    GtkWidget *button = gtk_button_new_from_icon_name(icon);
+    gtk_widget_add_css_class(button, "flat");
+    gtk_widget_set_tooltip_text(button, tip);
+    gtk_widget_set_name(button, tip);
+    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+    g_signal_connect(button, "clicked", callback, strip);
+    gtk_box_append(GTK_BOX(box), button);
+    return button;
+}
+
+static GtkWidget *make_growth(StudioTimeStrip *strip) {
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
+    strip->begin = growth_button(strip, box, "media-skip-backward-symbolic", "Back to the seeds",
+                                 G_CALLBACK(on_begin));
+    strip->undo = growth_button(strip, box, "media-seek-backward-symbolic", "A step back",
+                                G_CALLBACK(on_step_back));
+    strip->grow = growth_button(strip, box, "media-playback-start-symbolic", "Grow or pause",
+                                G_CALLBACK(on_grow));
+    growth_button(strip, box, "media-seek-forward-symbolic", "A step", G_CALLBACK(on_one_step));
+    strip->grown = gtk_label_new("");
+    gtk_widget_add_css_class(strip->grown, "numeric");
+    gtk_widget_set_margin_start(strip->grown, 8);
+    gtk_box_append(GTK_BOX(box), strip->grown);
+    return box;
 }
 
 // ---- steps -------------------------------------------------------------------------------------
@@ -118,8 +206,13 @@ void studio_time_strip_show(StudioTimeStrip *strip, StudioDocument *document, ui
     if (element != FR_NONE) {
         show_steps(strip, element);
     }
-    gtk_stack_set_visible_child_name(GTK_STACK(strip->stack),
-                                     element != FR_NONE ? "steps" : "clock");
+    bool is_species = plant != FR_NONE && fr_contents_child(contents, plant, "species") != FR_NONE;
+    if (!is_species) {
+        strip->is_growing = FALSE;
+    }
+    gtk_stack_set_visible_child_name(GTK_STACK(strip->stack), is_species           ? "growth"
+                                                              : element != FR_NONE ? "steps"
+                                                                                   : "clock");
 }
 
 // ---- life --------------------------------------------------------------------------------------
@@ -181,6 +274,8 @@ static void studio_time_strip_class_init(StudioTimeStripClass *class) {
     G_OBJECT_CLASS(class)->finalize = studio_time_strip_finalize;
     time_signal = g_signal_new("time", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL,
                                NULL, G_TYPE_NONE, 1, G_TYPE_DOUBLE);
+    step_signal = g_signal_new("step", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL,
+                               NULL, G_TYPE_NONE, 1, G_TYPE_INT64);
 }
 
 static void studio_time_strip_init(StudioTimeStrip *strip) {
@@ -188,6 +283,7 @@ static void studio_time_strip_init(StudioTimeStrip *strip) {
     gtk_widget_set_hexpand(strip->stack, TRUE);
     gtk_stack_add_named(GTK_STACK(strip->stack), make_clock(strip), "clock");
     gtk_stack_add_named(GTK_STACK(strip->stack), make_steps(strip), "steps");
+    gtk_stack_add_named(GTK_STACK(strip->stack), make_growth(strip), "growth");
     gtk_box_append(GTK_BOX(strip), strip->stack);
     gtk_widget_add_css_class(GTK_WIDGET(strip), "time-strip");
     show_years(strip);

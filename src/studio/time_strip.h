@@ -9,10 +9,14 @@
 #define STUDIO_TYPE_TIME_STRIP (studio_time_strip_get_type())
 G_DECLARE_FINAL_TYPE(StudioTimeStrip, studio_time_strip, STUDIO, TIME_STRIP, GtkBox)
 
-/// Signal "time" (double years): the clocks of all plants shall show it; NAN: as the document says.
+/// Signals:
+///   "time" (double years)    the clocks of all plants shall show it; NAN: as the document says
+///   "step" (gint64 step)     plants that grow bud by bud shall be at it
 
 GtkWidget *studio_time_strip_new(void);
 /// For the plant (FR_NONE: none) of a document, which the steps of an L-system change.
 void studio_time_strip_show(StudioTimeStrip *strip, StudioDocument *document, uint32_t plant);
+/// The plants grow bud by bud, are at a step, and the document asks for so many.
+void studio_time_strip_show_growth(StudioTimeStrip *strip, uint64_t step, uint64_t count);
 /// The picture of the last moment is there: a clock that runs may go on.
 void studio_time_strip_continue(StudioTimeStrip *strip);

@@ -169,7 +169,7 @@ static void drop_document(StudioWindow *window) {
 void studio_window_take(StudioWindow *window, StudioDocument *document) {
     drop_document(window);
     window->document = document;
-    window->time = NAN;
+    window->moment = (StudioMoment){NAN, -1};
     g_clear_pointer(&window->selected, g_free);
     g_clear_pointer(&window->plant, g_free);
     studio_document_watch(document, on_document_changed, window);
@@ -271,7 +271,7 @@ static void studio_window_class_init(StudioWindowClass *class) {
 }
 
 static void studio_window_init(StudioWindow *window) {
-    window->time = window->asked_time = NAN;
+    window->moment = window->asked_moment = (StudioMoment){NAN, -1};
     g_signal_connect(window, "close-request", G_CALLBACK(on_close), NULL);
 }
 

@@ -47,6 +47,11 @@ static void take(StudioWindow *window, const StudioBuilt *built) {
     if (built->status == FR_CANCELLED) {
         studio_window_say(window, "Stopped: the picture is that of before");
     }
+    if (built->is_growing) {
+        window->moment.step = (int64_t)built->step;
+        window->asked_moment.step = window->moment.step;
+        studio_time_strip_show_growth(window->strip, built->step, built->step_count);
+    }
     studio_time_strip_continue(window->strip);
     studio_window_update_problem(window);
     studio_inspector_set_diags(window->inspector, window->diags);
@@ -105,19 +110,19 @@ void studio_window_start_builder(StudioWindow *window) {
     window->asked = window->shown = 0;
 }
 
-static bool is_same_time(double a, double b) {
-    return a == b || (isnan(a) && isnan(b));
+static bool is_same_moment(StudioMoment a, StudioMoment b) {
+    return a.step == b.step && (a.time == b.time || (isnan(a.time) && isnan(b.time)));
 }
 
 void studio_window_request(StudioWindow *window) {
     uint64_t revision = studio_document_revision(window->document);
-    if (revision == window->asked && is_same_time(window->time, window->asked_time)) {
+    if (revision == window->asked && is_same_moment(window->moment, window->asked_moment)) {
         return;
     }
     window->asked = revision;
-    window->asked_time = window->time;
+    window->asked_moment = window->moment;
     studio_builder_request(window->builder, studio_document_source(window->document),
-                           studio_document_folder(window->document), revision, window->time);
+                           studio_document_folder(window->document), revision, window->moment);
     if (window->progress == 0) {
         window->progress = g_timeout_add(POLL_MILLISECONDS, on_poll, window);
     }

@@ -12,7 +12,13 @@ static void on_selected(GObject *panel, guint element, StudioWindow *window) {
 
 static void on_time(StudioTimeStrip *strip, double time, StudioWindow *window) {
     (void)strip;
-    window->time = time;
+    window->moment.time = time;
+    studio_window_request(window);
+}
+
+static void on_step(StudioTimeStrip *strip, gint64 step, StudioWindow *window) {
+    (void)strip;
+    window->moment.step = step;
     studio_window_request(window);
 }
 
@@ -234,6 +240,7 @@ static GtkWidget *make_middle(StudioWindow *window) {
     gtk_overlay_add_overlay(overlay, make_busy(window));
     window->strip = STUDIO_TIME_STRIP(studio_time_strip_new());
     g_signal_connect(window->strip, "time", G_CALLBACK(on_time), window);
+    g_signal_connect(window->strip, "step", G_CALLBACK(on_step), window);
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
     gtk_box_append(GTK_BOX(box), GTK_WIDGET(overlay));
     gtk_box_append(GTK_BOX(box), GTK_WIDGET(window->strip));

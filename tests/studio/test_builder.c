@@ -26,7 +26,7 @@ static void tear_down(Fixture *fixture, gconstpointer data) {
 static void request(Fixture *fixture, const StudioDocument *document, double time) {
     studio_builder_request(fixture->builder, studio_document_source(document),
                            studio_document_folder(document), studio_document_revision(document),
-                           time);
+                           (StudioMoment){time, -1});
 }
 
 static const StudioBuilt *await(Fixture *fixture) {
@@ -184,6 +184,38 @@ static void test_time(Fixture *fixture, gconstpointer data) {
     g_string_free(right, TRUE);
 }
 
+// The number of internodes at a step of three plants that grow bud by bud.
+static uint64_t nodes_at(Fixture *fixture, const StudioDocument *document, int64_t step) {
+    studio_builder_request(fixture->builder, studio_document_source(document), ".",
+                           studio_document_revision(document), (StudioMoment){NAN, step});
+    const StudioBuilt *built = await(fixture);
+    g_assert_cmpint(built->status, ==, FR_OK);
+    g_assert_true(built->is_growing);
+    g_assert_cmpuint(built->step, ==, step < 0 ? built->step_count : (uint64_t)step);
+    uint64_t nodes = 0;
+    for (guint i = 0; i < built->view->plants->len; i++) {
+        nodes +=
+            ((const StudioPlant *)g_ptr_array_index(built->view->plants, i))->plant->nodes.count;
+    }
+    studio_builder_release(fixture->builder);
+    return nodes;
+}
+
+static void test_growth(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    static const char text[] = "<frond version='1'><plant id='tree' seed='1'><species/></plant>"
+                               "<scene><growth steps='6'/><place plant='tree'/>"
+                               "<place plant='tree' at='1, 0, 0'/></scene></frond>";
+    StudioDocument *document = studio_document_new(text, strlen(text), "g", NULL);
+    uint64_t grown = nodes_at(fixture, document, -1);
+    uint64_t none = nodes_at(fixture, document, 0), three = nodes_at(fixture, document, 3);
+    g_assert_cmpuint(none, <, three);
+    g_assert_cmpuint(three, <, grown);
+    g_assert_cmpuint(nodes_at(fixture, document, 6), ==, grown);
+    g_assert_cmpuint(nodes_at(fixture, document, 3), ==, three);
+    studio_document_free(document);
+}
+
 static void test_pictures(Fixture *fixture, gconstpointer data) {
     (void)data;
     StudioDocument *document = open_example("examples/sunflower.frond");
@@ -224,6 +256,7 @@ int main(int argc, char **argv) {
     ADD("/studio/builder/of many requests the last is built", test_newest_only);
     ADD("/studio/builder/a long build can be stopped", test_cancel);
     ADD("/studio/builder/another time moves no place of a diagnostic", test_time);
+    ADD("/studio/builder/what grows bud by bud is taken forth and back", test_growth);
     ADD("/studio/builder/pictures are made once", test_pictures);
     return g_test_run();
 }

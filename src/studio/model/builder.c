@@ -1,6 +1,7 @@
 #include "studio/model/builder.h"
 
 #include "frond/contents.h"
+#include "studio/model/grower.h"
 #include "studio/model/painter.h"
 #include "studio/model/picked.h"
 
@@ -17,7 +18,7 @@ typedef struct Request {
     FrSource *source;
     char *folder;
     uint64_t revision;
-    double time;
+    StudioMoment moment;
 } Request;
 
 struct StudioBuilder {
@@ -38,6 +39,7 @@ struct StudioBuilder {
     gint fraction;      // atomic, in thousandths
     // Of the thread alone:
     FrRebuild *rebuild;
+    StudioGrower *grower;
     FrPool *pool;
     StudioView *view;
 };
@@ -145,30 +147,71 @@ static void paint_looks(StudioBuilder *builder) {
     }
 }
 
-static FrStatus build(StudioBuilder *builder, const Request *request, const FrContext *context,
-                      StudioBuilt *built) {
-    gint64 began = g_get_monotonic_time();
-    FrSource *source = at_time(request->source, request->time, context);
-    FrDocument *document;
-    FrStatus status = fr_document_parse(source, request->folder, context, &document);
-    built->times.read = seconds_since(began);
-    began = g_get_monotonic_time();
-    if (status == FR_OK) {
-        status = fr_rebuild_update(builder->rebuild, document, -1, context);
-        built->times.build = seconds_since(began);
+// The view of what grows step by step. The document is taken over or freed.
+static FrStatus grow(StudioBuilder *builder, const Request *request, FrDocument *document,
+                     const FrContext *context, StudioBuilt *built) {
+    size_t size;
+    char *text = fr_document_text(document, &size);
+    int64_t step = request->moment.step;
+    FrStatus status =
+        studio_grower_take(builder->grower, document, fr_digest(0, text, size), step >= 0, context);
+    g_free(text);
+    if (status != FR_OK) {
+        fr_document_free(document);
+        return status;
     }
+    FrStatus gone = studio_grower_go(builder->grower, step, context);
+    StudioView *view;
+    FrContext calm = *context; // what has grown is shown, cancelled or not
+    calm.progress = NULL;
+    status = studio_grower_view(builder->grower, &calm, &view);
     if (status == FR_OK) {
-        began = g_get_monotonic_time();
+        studio_view_free(builder->view);
+        builder->view = view;
+        built->view = view;
+    }
+    built->is_growing = true;
+    built->step = studio_grower_step(builder->grower);
+    built->step_count = studio_grower_step_count(builder->grower);
+    return status == FR_OK ? gone : status;
+}
+
+static FrStatus rebuild(StudioBuilder *builder, FrDocument *document, const FrContext *context,
+                        StudioBuilt *built) {
+    FrStatus status = fr_rebuild_update(builder->rebuild, document, -1, context);
+    if (status == FR_OK) {
+        gint64 began = g_get_monotonic_time();
         studio_view_free(builder->view);
         FrContext calm = *context; // the rebuild is done: its view is made whole
         calm.progress = NULL;
         builder->view = studio_view_new(builder->rebuild, &calm);
         built->view = builder->view;
-        built->counts = count_instances(builder->view->scene);
         built->times.view = seconds_since(began);
-        paint_looks(builder);
     }
     fr_document_free(document);
+    return status;
+}
+
+static FrStatus build(StudioBuilder *builder, const Request *request, const FrContext *context,
+                      StudioBuilt *built) {
+    gint64 began = g_get_monotonic_time();
+    FrSource *source = at_time(request->source, request->moment.time, context);
+    FrDocument *document;
+    FrStatus status = fr_document_parse(source, request->folder, context, &document);
+    built->times.read = seconds_since(began);
+    began = g_get_monotonic_time();
+    if (status != FR_OK) {
+        fr_document_free(document);
+    } else if (studio_grower_is_wanted(document)) {
+        status = grow(builder, request, document, context, built);
+    } else {
+        status = rebuild(builder, document, context, built);
+    }
+    built->times.build = seconds_since(began) - built->times.view;
+    if (built->view != NULL) {
+        built->counts = count_instances(builder->view->scene);
+        paint_looks(builder);
+    }
     fr_source_unref(source);
     return status;
 }
@@ -260,6 +303,7 @@ StudioBuilder *studio_builder_new(StudioWake wake, void *user) {
     FrSkinParams params = fr_skin_default();
     params.foliage = false;
     builder->rebuild = fr_rebuild_new(&params, FR_UP_Z);
+    builder->grower = studio_grower_new();
     builder->pool = fr_pool_new(0);
     builder->painter = studio_painter_new(wake, user);
     builder->thread = g_thread_new("builder", run, builder);
@@ -281,6 +325,7 @@ void studio_builder_free(StudioBuilder *builder) {
     built_free(builder->built);
     request_free(builder->waiting);
     fr_rebuild_free(builder->rebuild);
+    studio_grower_free(builder->grower);
     fr_pool_free(builder->pool);
     g_cond_clear(&builder->changed);
     g_mutex_clear(&builder->lock);
@@ -288,9 +333,9 @@ void studio_builder_free(StudioBuilder *builder) {
 }
 
 void studio_builder_request(StudioBuilder *builder, FrSource *source, const char *folder,
-                            uint64_t revision, double time) {
+                            uint64_t revision, StudioMoment moment) {
     Request *request = g_new(Request, 1);
-    *request = (Request){fr_source_ref(source), g_strdup(folder), revision, time};
+    *request = (Request){fr_source_ref(source), g_strdup(folder), revision, moment};
     g_mutex_lock(&builder->lock);
     request_free(builder->waiting);
     builder->waiting = request;

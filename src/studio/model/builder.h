@@ -31,6 +31,8 @@ typedef struct StudioBuilt {
     bool is_coarse;         ///< only the coarse wood is new
     GArray *counts;         ///< StudioCount; NULL without a view
     StudioTimes times;
+    bool is_growing;           ///< its plants grow bud by bud, …
+    uint64_t step, step_count; ///< … are at this step, of so many that the document asks for
 } StudioBuilt;
 
 /// A material's picture of colours.
@@ -52,9 +54,16 @@ typedef struct StudioPicked {
 StudioBuilder *studio_builder_new(StudioWake wake, void *user);
 /// Cancels what runs, waits for it and frees everything.
 void studio_builder_free(StudioBuilder *builder);
-/// Asks for a document. `time` in years for the clocks of all plants, NAN: as it says.
+/// What of a document is shown: `time` in years for the clocks of all plants, NAN: as it says;
+/// `step` for plants that grow bud by bud, < 0: as it says.
+typedef struct StudioMoment {
+    double time;
+    int64_t step;
+} StudioMoment;
+
+/// Asks for a document at a moment.
 void studio_builder_request(StudioBuilder *builder, FrSource *source, const char *folder,
-                            uint64_t revision, double time);
+                            uint64_t revision, StudioMoment moment);
 /// Stops what runs; its status will be FR_CANCELLED.
 void studio_builder_cancel(StudioBuilder *builder);
 /// Whether something runs or waits, and how far it is (0 to 1); `seconds` since it began.

@@ -235,14 +235,26 @@ static StudioPlant *plant_new(const FrPlant *plant, const FrSkin *wood, const Fr
     return view;
 }
 
-StudioView *studio_view_new(const FrRebuild *rebuild, const FrContext *context) {
+StudioView *studio_view_of(const FrScene *scene, const FrSkin *const *skins,
+                           const FrContext *context) {
     StudioView *view = g_new0(StudioView, 1);
-    view->scene = fr_rebuild_scene(rebuild);
+    view->scene = scene;
     view->plants = g_ptr_array_new_with_free_func(plant_free);
-    for (guint i = 0; i < view->scene->plants->len; i++) {
-        const FrPlant *plant = g_array_index(view->scene->plants, FrScenePlant, i).plant;
-        g_ptr_array_add(view->plants, plant_new(plant, fr_rebuild_skin(rebuild, i), context));
+    for (guint i = 0; i < scene->plants->len; i++) {
+        const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, i).plant;
+        g_ptr_array_add(view->plants, plant_new(plant, skins[i], context));
     }
+    return view;
+}
+
+StudioView *studio_view_new(const FrRebuild *rebuild, const FrContext *context) {
+    const FrScene *scene = fr_rebuild_scene(rebuild);
+    const FrSkin **skins = g_new(const FrSkin *, scene->plants->len + 1);
+    for (guint i = 0; i < scene->plants->len; i++) {
+        skins[i] = fr_rebuild_skin(rebuild, i);
+    }
+    StudioView *view = studio_view_of(scene, skins, context);
+    g_free(skins);
     return view;
 }
 

@@ -57,6 +57,9 @@ typedef struct StudioView {
 
 /// All but coarse_wood, of what a rebuild holds; borrowed from it until its next update.
 StudioView *studio_view_new(const FrRebuild *rebuild, const FrContext *context);
+/// The same of any scene, with the skin of each of its plants.
+StudioView *studio_view_of(const FrScene *scene, const FrSkin *const *skins,
+                           const FrContext *context);
 /// Makes the coarse wood. Stops when cancelled; what is missing then stays NULL.
 void studio_view_add_coarse(StudioView *view, const FrContext *context);
 void studio_view_free(StudioView *view);
