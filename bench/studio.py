@@ -41,8 +41,7 @@ def main():
     reason = studio_driver.why_not()
     if reason is not None:
         sys.exit(f"bench/studio.py: {reason}")
-    display = studio_driver.Display()
-    with tempfile.TemporaryDirectory() as home:
+    with studio_driver.Display() as display, tempfile.TemporaryDirectory() as home:
         studio = studio_driver.Studio(display, home)
         studio.ask("size 1440 900")
         studio.ask(f"open {SOURCE / 'examples/chestnut.frond'}")
@@ -59,7 +58,6 @@ def main():
               f"{state['coarse_triangles']} triangles; at rest {1000 * state['fine']:.0f} ms for "
               f"{state['triangles']}")
         studio.quit()
-    display.close()
 
 
 if __name__ == "__main__":

@@ -197,7 +197,7 @@ void studio_graph_draw(StudioGraphPanel *panel, GtkSnapshot *snapshot) {
     }
     if (panel->graph->boxes->len == 0) {
         cairo_set_source_rgba(cairo, ink.red, ink.green, ink.blue, 0.6);
-        text_at(panel, cairo, "This plant is not made of components", PAD, 2 * PAD, width - 2 * PAD,
+        text_at(panel, cairo, "No components: see Contents and Text", PAD, 2 * PAD, width - 2 * PAD,
                 13, false);
     } else {
         draw_tools(panel, cairo, &ink);

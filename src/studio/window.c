@@ -66,7 +66,7 @@ void studio_window_select(StudioWindow *window, uint32_t element) {
     window->selected = element == FR_NONE
                            ? NULL
                            : studio_place_of(studio_document_contents(window->document), element);
-    studio_viewport_highlight(window->viewport, NULL, 0);
+    studio_window_unpick(window);
     update_panels(window);
     studio_window_update_actions(window);
 }
@@ -164,6 +164,10 @@ static void drop_document(StudioWindow *window) {
         g_clear_pointer(&window->document, studio_document_free);
     }
     g_clear_pointer(&window->diags, fr_diags_free);
+    if (window->picked.lines != NULL) {
+        studio_picked_clear(&window->picked);
+        window->picked = (StudioPicked){0};
+    }
 }
 
 void studio_window_take(StudioWindow *window, StudioDocument *document) {
@@ -184,7 +188,13 @@ void studio_window_take(StudioWindow *window, StudioDocument *document) {
         gtk_widget_set_visible(window->welcome_hidden[i], TRUE);
     }
     studio_viewport_forget(window->viewport);
-    studio_viewport_highlight(window->viewport, NULL, 0);
+    studio_window_unpick(window);
+    const FrContents *contents = studio_document_contents(document);
+    uint32_t plant = contents == NULL ? FR_NONE : fr_contents_child(contents, 0, "plant");
+    bool has_graph = plant != FR_NONE && studio_graph_of(document, plant) != FR_NONE;
+    gtk_stack_set_visible_child_name(GTK_STACK(window->side), has_graph          ? "graph"
+                                                              : contents == NULL ? "text"
+                                                                                 : "things");
     studio_window_start_builder(window);
     on_document_changed(window);
     gtk_widget_grab_focus(GTK_WIDGET(window->viewport));

@@ -230,6 +230,18 @@ static void do_roll(GSimpleAction *action, GVariant *parameter, gpointer data) {
     }
 }
 
+static void do_prune(GSimpleAction *action, GVariant *parameter, gpointer data) {
+    (void)action;
+    (void)parameter;
+    studio_window_edit_picked(data, "prune", "Prune %s");
+}
+
+static void do_hide(GSimpleAction *action, GVariant *parameter, gpointer data) {
+    (void)action;
+    (void)parameter;
+    studio_window_edit_picked(data, "hide", "Hide %s");
+}
+
 // An element by its place, or the first that is called so; FR_NONE.
 static uint32_t find_element(StudioWindow *window, const char *name) {
     const FrContents *contents = studio_document_contents(window->document);
@@ -372,6 +384,8 @@ void studio_window_add_actions(StudioWindow *window) {
         {.name = "duplicate", .activate = do_duplicate},
         {.name = "toggle-enabled", .activate = do_toggle_enabled},
         {.name = "roll", .activate = do_roll},
+        {.name = "prune", .activate = do_prune},
+        {.name = "hide", .activate = do_hide},
         {.name = "set", .activate = do_set, .parameter_type = "s"},
         {.name = "select", .activate = do_select, .parameter_type = "s"},
         {.name = "frame", .activate = do_frame},
@@ -403,8 +417,9 @@ static void set_tip(GtkWidget *button, const char *verb, const char *step) {
 
 void studio_window_update_actions(StudioWindow *window) {
     static const char *const always[] = {
-        "save-as", "save-to", "export", "export-to", "screenshot", "add",    "roll",      "set",
-        "select",  "frame",   "zoom",   "mode",      "grid",       "shadow", "occlusion", "side"};
+        "save-as", "save-to", "export", "export-to", "screenshot", "add",
+        "prune",   "hide",    "roll",   "set",       "select",     "frame",
+        "zoom",    "mode",    "grid",   "shadow",    "occlusion",  "side"};
     StudioDocument *document = window->document;
     bool is_there = document != NULL;
     for (size_t i = 0; i < G_N_ELEMENTS(always); i++) {

@@ -139,6 +139,25 @@ bool studio_window_is_idle(StudioWindow *window) {
 
 // ---- picking -----------------------------------------------------------------------------------
 
+void studio_window_unpick(StudioWindow *window) {
+    if (window->picked.lines != NULL) {
+        studio_picked_clear(&window->picked);
+        window->picked = (StudioPicked){0};
+        studio_viewport_highlight(window->viewport, NULL, 0);
+    }
+    gtk_revealer_set_reveal_child(GTK_REVEALER(window->picked_bar), FALSE);
+}
+
+static void show_picked(StudioWindow *window) {
+    const StudioPicked *picked = &window->picked;
+    studio_viewport_highlight(
+        window->viewport, (const float(*)[3])(const void *)picked->lines->data, picked->lines->len);
+    char *text = g_strdup_printf("One of %s, %.2f m away", picked->component, picked->distance);
+    gtk_label_set_text(GTK_LABEL(window->picked_text), text);
+    g_free(text);
+    gtk_revealer_set_reveal_child(GTK_REVEALER(window->picked_bar), TRUE);
+}
+
 void studio_window_pick(StudioWindow *window, double x, double y) {
     double origin[3], direction[3];
     int width = gtk_widget_get_width(GTK_WIDGET(window->viewport));
@@ -147,6 +166,7 @@ void studio_window_pick(StudioWindow *window, double x, double y) {
     studio_camera_ray(camera, (double)width / height, x, y, origin, direction);
     double spread = 6 * tan(0.5 * camera->field_of_view) / height;
     StudioPicked picked;
+    studio_window_unpick(window);
     if (window->builder == NULL ||
         !studio_builder_pick(window->builder, origin, direction, spread, &picked)) {
         studio_window_select(window, FR_NONE);
@@ -154,11 +174,35 @@ void studio_window_pick(StudioWindow *window, double x, double y) {
     }
     const FrContents *contents = studio_document_contents(window->document);
     uint32_t plant = picked.plant == NULL ? FR_NONE : fr_contents_find(contents, 0, picked.plant);
-    uint32_t element = plant == FR_NONE || picked.component == NULL
-                           ? plant
-                           : fr_contents_find(contents, plant, picked.component);
+    uint32_t graph = plant == FR_NONE ? FR_NONE : studio_graph_of(window->document, plant);
+    uint32_t element = graph == FR_NONE || picked.component == NULL
+                           ? FR_NONE
+                           : fr_contents_find(contents, graph, picked.component);
     studio_window_select(window, element == FR_NONE ? plant : element);
-    studio_viewport_highlight(window->viewport, (const float(*)[3])(const void *)picked.lines->data,
-                              picked.lines->len);
-    studio_picked_clear(&picked);
+    window->picked = picked;
+    if (element != FR_NONE) {
+        show_picked(window);
+    } else {
+        studio_viewport_highlight(window->viewport,
+                                  (const float(*)[3])(const void *)picked.lines->data,
+                                  picked.lines->len);
+    }
+}
+
+void studio_window_edit_picked(StudioWindow *window, const char *attribute, const char *name) {
+    const StudioPicked *picked = &window->picked;
+    if (picked->lines == NULL || picked->plant == NULL || picked->component == NULL) {
+        return;
+    }
+    char *path = studio_hand_path(studio_document_source(window->document),
+                                  studio_document_folder(window->document), picked->plant,
+                                  picked->component, picked->path);
+    uint32_t plant = fr_contents_find(studio_document_contents(window->document), 0, picked->plant);
+    if (path == NULL || plant == FR_NONE) {
+        studio_window_say(window, "This one has no path of its own and cannot be edited by hand");
+    } else {
+        studio_edit_instance(window->document, plant, path, name, attribute, "yes", NULL);
+    }
+    studio_window_unpick(window);
+    g_free(path);
 }

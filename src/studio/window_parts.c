@@ -201,6 +201,32 @@ static GtkWidget *make_problem(StudioWindow *window) {
     return window->problem;
 }
 
+static GtkWidget *text_button(const char *text, const char *action, const char *tip) {
+    GtkWidget *button = gtk_button_new_with_label(text);
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+    gtk_widget_set_tooltip_text(button, tip);
+    return button;
+}
+
+// What can be done to the one branch or leaf that was clicked.
+static GtkWidget *make_picked(StudioWindow *window) {
+    window->picked_bar = gtk_revealer_new();
+    gtk_revealer_set_transition_type(GTK_REVEALER(window->picked_bar),
+                                     GTK_REVEALER_TRANSITION_TYPE_CROSSFADE);
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+    gtk_widget_add_css_class(box, "busy");
+    window->picked_text = gtk_label_new("");
+    gtk_box_append(GTK_BOX(box), window->picked_text);
+    gtk_box_append(GTK_BOX(box),
+                   text_button("Prune", "win.prune", "Cut it off, with all that follows on it"));
+    gtk_box_append(GTK_BOX(box),
+                   text_button("Hide", "win.hide", "Hide it; what follows on it stays"));
+    gtk_revealer_set_child(GTK_REVEALER(window->picked_bar), box);
+    gtk_widget_set_halign(window->picked_bar, GTK_ALIGN_CENTER);
+    gtk_widget_set_valign(window->picked_bar, GTK_ALIGN_END);
+    return window->picked_bar;
+}
+
 static GtkWidget *make_busy(StudioWindow *window) {
     window->busy = gtk_revealer_new();
     gtk_revealer_set_transition_type(GTK_REVEALER(window->busy),
@@ -223,6 +249,7 @@ static GtkWidget *make_busy(StudioWindow *window) {
 
 static GtkWidget *make_middle(StudioWindow *window) {
     window->viewport = STUDIO_VIEWPORT(studio_viewport_new());
+    gtk_widget_set_name(GTK_WIDGET(window->viewport), "viewport");
     g_signal_connect(window->viewport, "clicked", G_CALLBACK(on_clicked), window);
     g_signal_connect(window->viewport, "ready", G_CALLBACK(on_ready), window);
     gtk_widget_set_hexpand(GTK_WIDGET(window->viewport), TRUE);
@@ -236,6 +263,7 @@ static GtkWidget *make_middle(StudioWindow *window) {
     gtk_widget_set_can_target(window->amount, FALSE);
     gtk_overlay_add_overlay(overlay, window->amount);
     gtk_overlay_add_overlay(overlay, make_modes());
+    gtk_overlay_add_overlay(overlay, make_picked(window));
     gtk_overlay_add_overlay(overlay, make_problem(window));
     gtk_overlay_add_overlay(overlay, make_busy(window));
     window->strip = STUDIO_TIME_STRIP(studio_time_strip_new());

@@ -7,6 +7,7 @@
 #include "studio/inspector.h"
 #include "studio/model/builder.h"
 #include "studio/model/commands.h"
+#include "studio/model/hand.h"
 #include "studio/model/place.h"
 #include "studio/picture.h"
 #include "studio/text_panel.h"
@@ -29,6 +30,7 @@ struct _StudioWindow {
     StudioMoment moment, asked_moment; ///< of what is shown
     guint autosave, progress;          ///< timers
     gint is_woken;                     ///< atomic: the main thread is on its way
+    StudioPicked picked;               ///< what was clicked last; `lines` NULL: nothing
     guint exports;                     ///< that run
     bool is_closing;                   ///< the user has said what shall become of changes
 
@@ -44,6 +46,7 @@ struct _StudioWindow {
     StudioTextPanel *text;
     StudioInspector *inspector;
     StudioTimeStrip *strip;
+    GtkWidget *picked_bar, *picked_text;
     GtkWidget *amount, *problem, *problem_text, *busy, *busy_bar, *scale;
 };
 
@@ -57,6 +60,10 @@ void studio_window_start_builder(StudioWindow *window);
 void studio_window_collect(StudioWindow *window);
 /// Lets the user pick what stands at a point of the picture.
 void studio_window_pick(StudioWindow *window, double x, double y);
+/// Nothing is picked any more.
+void studio_window_unpick(StudioWindow *window);
+/// Edits what is picked by hand: an attribute that becomes "yes", and the name of the step.
+void studio_window_edit_picked(StudioWindow *window, const char *attribute, const char *name);
 
 // window_actions.c
 

@@ -32,6 +32,12 @@ class Display:
         with os.fdopen(read) as numbers:
             self.name = ":" + numbers.readline().strip()
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *reason):
+        self.close()
+
     def close(self):
         self.server.terminate()
         self.server.wait()

@@ -152,6 +152,28 @@ def test_view(run):
     studio.wait()
 
 
+def test_hand(run):
+    """a leaf that is clicked can be pruned"""
+    studio = run.studio
+    studio.ask("do frame")
+    studio.wait()
+    before = studio.state()
+    x, y, width, height = studio.where("viewport")
+    for k in range(40):  # somewhere along the middle there is a leaf
+        studio.click([x + width / 2 + 12, y + height * (0.1 + 0.02 * k)])
+        if studio.state()["selected"].endswith("leaf:leaf"):
+            break
+    assert studio.state()["selected"].endswith("leaf:leaf"), studio.state()
+    run.picture("flower-picked")
+    studio.ask("do prune")
+    studio.wait()
+    after = studio.state()
+    assert after["leaves"] == before["leaves"] - 1, after
+    studio.ask("do undo")
+    studio.wait()
+    assert studio.state()["digest"] == before["digest"]
+
+
 def test_mistake(run):
     """a mistake is shown at its place and the last good plant stays"""
     studio = run.studio
@@ -231,7 +253,7 @@ def test_killed(run):
     assert run.studio.quit() == 0
 
 
-TESTS = [test_welcome, test_examples, test_flower, test_link, test_slider, test_curve, test_view,
+TESTS = [test_welcome, test_examples, test_flower, test_link, test_slider, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
 
