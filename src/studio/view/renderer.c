@@ -321,7 +321,7 @@ static void draw_coarse(StudioRenderer *renderer, Shot *shot, const StudioCamera
     double seconds = now() - began;
     renderer->pace.coarse_seconds = seconds;
     double factor = CLAMP(frame_seconds / fmax(seconds, 1e-4), 0.6, 1.3);
-    if (renderer->pace.coarse_triangles > 0.5 * renderer->budget || factor < 1) {
+    if ((double)renderer->pace.coarse_triangles > 0.5 * renderer->budget || factor < 1) {
         renderer->budget = CLAMP(renderer->budget * factor, LEAST_BUDGET, MOST_BUDGET);
     }
     renderer->is_coarse_old = false;
