@@ -13,6 +13,8 @@ def why_not():
     """Why the studio cannot be driven here, or None."""
     if not os.path.exists(STUDIO):
         return "frond-studio is not built"
+    if os.environ.get("FROND_SANITIZED"):
+        return "GTK and its drivers are not made for sanitizers"
     for tool in ("Xvfb", "xdotool"):
         if shutil.which(tool) is None:
             return f"{tool} is not installed"
