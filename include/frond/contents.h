@@ -61,7 +61,8 @@ FR_API bool fr_contents_is_id(const char *id);
 FR_API FrSplice fr_contents_set(const FrContents *contents, uint32_t element, const char *attribute,
                                 const char *value);
 /// Makes this the text within an element; in a CDATA section if that is what is there or if it has
-/// markup.
+/// markup. Elements before and behind the text stay. A text that others part stays, too: an empty
+/// splice.
 FR_API FrSplice fr_contents_set_text(const FrContents *contents, uint32_t element,
                                      const char *text);
 /// Puts an element (its XML) into `parent`, on a line of its own, behind the child `after`;

@@ -196,19 +196,23 @@ char *fr_contents_text(const FrContents *contents, uint32_t element, FrSpan *pla
     uint32_t node = node_of(contents, element);
     GString *text = g_string_new(NULL);
     GArray *origins = g_array_new(FALSE, FALSE, sizeof(uint32_t));
+    FrXmlRange range;
+    fr_splice_text_range(tree, node, &range);
     for (uint32_t child = tree->nodes[node].first; child != FR_NONE;
          child = tree->nodes[child].next) {
-        FrXmlKind kind = tree->nodes[child].kind;
-        if (kind == FR_XML_CDATA) {
-            FrXmlRange range = tree->nodes[child].name;
-            g_string_append_len(text, fr_source_text(tree->source, NULL) + range.begin,
-                                (gssize)(range.end - range.begin));
-        } else if (kind == FR_XML_TEXT) {
-            fr_xml_decode_text(tree, tree->nodes[child].all, text, origins);
+        const FrXmlNode *at = &tree->nodes[child];
+        if (at->all.begin < range.begin || at->all.end > range.end) {
+            continue;
+        }
+        if (at->kind == FR_XML_CDATA) {
+            g_string_append_len(text, fr_source_text(tree->source, NULL) + at->name.begin,
+                                (gssize)(at->name.end - at->name.begin));
+        } else if (at->kind == FR_XML_TEXT) {
+            fr_xml_decode_text(tree, at->all, text, origins);
         }
     }
     if (place != NULL) {
-        *place = fr_xml_span(tree, fr_splice_inside(tree, node));
+        *place = fr_xml_span(tree, range);
     }
     g_array_unref(origins);
     return g_string_free(text, FALSE);

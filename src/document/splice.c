@@ -111,6 +111,44 @@ static FrSplice splice_inside(const FrXmlTree *tree, uint32_t node, char *inside
     return splice;
 }
 
+static bool is_text(const FrXmlTree *tree, uint32_t node) {
+    const FrXmlNode *at = &tree->nodes[node];
+    if (at->kind != FR_XML_TEXT) {
+        return at->kind == FR_XML_CDATA;
+    }
+    const char *text = text_of(tree);
+    for (uint32_t i = at->all.begin; i < at->all.end; i++) {
+        if (!g_ascii_isspace(text[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool fr_splice_text_range(const FrXmlTree *tree, uint32_t node, FrXmlRange *range) {
+    uint32_t first = FR_NONE, last = FR_NONE;
+    bool has_other = false, is_parted = false, is_open = false;
+    for (uint32_t child = tree->nodes[node].first; child != FR_NONE;
+         child = tree->nodes[child].next) {
+        FrXmlKind kind = tree->nodes[child].kind;
+        if (is_text(tree, child)) {
+            is_parted = is_parted || is_open;
+            first = first == FR_NONE ? child : first;
+            last = child;
+        } else if (kind != FR_XML_TEXT) {
+            has_other = true;
+            is_open = last != FR_NONE;
+        }
+    }
+    FrXmlRange inside = fr_splice_inside(tree, node);
+    if (first != FR_NONE) {
+        *range = (FrXmlRange){tree->nodes[first].all.begin, tree->nodes[last].all.end};
+    } else {
+        *range = has_other ? (FrXmlRange){inside.end, inside.end} : inside;
+    }
+    return !is_parted;
+}
+
 static bool has_cdata(const FrXmlTree *tree, uint32_t node) {
     for (uint32_t child = tree->nodes[node].first; child != FR_NONE;
          child = tree->nodes[child].next) {
@@ -121,12 +159,9 @@ static bool has_cdata(const FrXmlTree *tree, uint32_t node) {
     return false;
 }
 
-FrSplice fr_splice_content(const FrXmlTree *tree, uint32_t node, const char *text) {
-    bool is_plain = strpbrk(text, "&<") == NULL && strstr(text, "]]>") == NULL;
-    if (is_plain && !has_cdata(tree, node)) {
-        return splice_inside(tree, node, g_strdup(text));
-    }
-    // A section cannot hold the mark of its own end: it ends within it and another begins.
+// Within a CDATA section, which cannot hold the mark of its own end: it ends there and another
+// begins.
+static char *in_section(const char *text) {
     GString *out = g_string_new("<![CDATA[");
     for (const char *at = text; *at != '\0'; at++) {
         if (g_str_has_prefix(at, "]]>")) {
@@ -137,7 +172,18 @@ FrSplice fr_splice_content(const FrXmlTree *tree, uint32_t node, const char *tex
         }
     }
     g_string_append(out, "]]>");
-    return splice_inside(tree, node, g_string_free(out, FALSE));
+    return g_string_free(out, FALSE);
+}
+
+FrSplice fr_splice_content(const FrXmlTree *tree, uint32_t node, const char *text) {
+    FrXmlRange range;
+    if (!fr_splice_text_range(tree, node, &range)) {
+        return (FrSplice){range.begin, range.begin, g_strdup("")};
+    }
+    bool is_plain = strpbrk(text, "&<") == NULL && strstr(text, "]]>") == NULL;
+    char *written = is_plain && !has_cdata(tree, node) ? g_strdup(text) : in_section(text);
+    return has_one_tag(tree, node) ? splice_inside(tree, node, written)
+                                   : (FrSplice){range.begin, range.end, written};
 }
 
 // ---- elements ----------------------------------------------------------------------------------

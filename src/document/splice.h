@@ -9,7 +9,10 @@
 /// stands afterwards.
 FrSplice fr_splice_attribute(const FrXmlTree *tree, uint32_t node, const char *name,
                              const char *value, FrXmlRange *place);
-/// Replaces all between the tags of an element.
+/// Where the text of an element stands: from its first to its last piece that is not blank, or
+/// where there is none, where one would stand. False if other elements or comments part it.
+bool fr_splice_text_range(const FrXmlTree *tree, uint32_t node, FrXmlRange *range);
+/// Replaces the text of an element; an empty splice if that is parted.
 FrSplice fr_splice_content(const FrXmlTree *tree, uint32_t node, const char *text);
 FrSplice fr_splice_insert(const FrXmlTree *tree, uint32_t parent, uint32_t after, const char *xml);
 FrSplice fr_splice_remove(const FrXmlTree *tree, uint32_t node);

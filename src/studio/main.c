@@ -55,6 +55,8 @@ static void on_quit(GSimpleAction *action, GVariant *parameter, gpointer data) {
 
 static void on_startup(GApplication *application, Studio *studio) {
     gtk_source_init();
+    gtk_source_language_manager_append_search_path(gtk_source_language_manager_get_default(),
+                                                   "resource:///org/frond/Studio/languages");
     studio->settings = NULL;
     char *file = studio_settings_file();
     studio->settings = studio_settings_new(file);

@@ -1,5 +1,7 @@
 #include "studio/text_panel.h"
 
+#include "studio/model/place.h"
+
 #include <adwaita.h>
 #include <gtksourceview/gtksource.h>
 #include <string.h>
@@ -7,6 +9,7 @@
 struct _StudioTextPanel {
     GtkBox parent;
     StudioDocument *document; // borrowed
+    char *place;              // of the element whose text it is; NULL: the whole document's
     GtkSourceBuffer *buffer;
     GtkWidget *view;
     GtkTextTag *error, *warning;
@@ -46,7 +49,17 @@ static void on_changed(GtkTextBuffer *buffer, StudioTextPanel *panel) {
     }
     char *text = text_of(panel);
     panel->is_typing = TRUE;
-    studio_document_replace(panel->document, text, strlen(text), "Type", "text");
+    if (panel->place == NULL) {
+        studio_document_replace(panel->document, text, strlen(text), "Type", "text");
+    } else {
+        const FrContents *contents = studio_document_contents(panel->document);
+        uint32_t element = studio_place_find(contents, panel->place);
+        if (element != FR_NONE) {
+            studio_document_splice_one(panel->document,
+                                       fr_contents_set_text(contents, element, text), "Type",
+                                       panel->place);
+        }
+    }
     panel->is_typing = FALSE;
     g_free(text);
     g_clear_handle_id(&panel->seal, g_source_remove);
@@ -55,10 +68,54 @@ static void on_changed(GtkTextBuffer *buffer, StudioTextPanel *panel) {
 
 // ---- showing -----------------------------------------------------------------------------------
 
-// Bytes to a place in the buffer.
-static void place_of(StudioTextPanel *panel, const char *text, uint32_t offset, GtkTextIter *at) {
-    gtk_text_buffer_get_iter_at_offset(buffer_of(panel), at,
-                                       (int)g_utf8_strlen(text, (gssize)offset));
+// How long a piece of XML is, and how many bytes of text it means: an opened or closed CDATA
+// section and a comment are none, a reference is one.
+static size_t piece_at(const char *xml, const char *end, size_t *meaning) {
+    const char *closed = NULL;
+    *meaning = 0;
+    if (g_str_has_prefix(xml, "<![CDATA[")) {
+        return strlen("<![CDATA[");
+    }
+    if (g_str_has_prefix(xml, "]]>")) {
+        return strlen("]]>");
+    }
+    if (g_str_has_prefix(xml, "<!--") && (closed = strstr(xml, "-->")) != NULL) {
+        return (size_t)(closed - xml) + strlen("-->");
+    }
+    *meaning = 1;
+    closed = *xml == '&' ? memchr(xml, ';', (size_t)(end - xml)) : NULL;
+    return closed == NULL ? 1 : (size_t)(closed - xml) + 1;
+}
+
+// Where a byte of the document is in the text that is shown; FR_NONE: outside.
+static uint32_t shown_offset(StudioTextPanel *panel, uint32_t offset) {
+    if (panel->place == NULL) {
+        return offset;
+    }
+    const FrContents *contents = studio_document_contents(panel->document);
+    uint32_t element = studio_place_find(contents, panel->place);
+    FrSpan place = {0};
+    if (element != FR_NONE) {
+        g_free(fr_contents_text(contents, element, &place));
+    }
+    if (place.source == NULL || offset < place.begin || offset > place.end) {
+        return FR_NONE;
+    }
+    const char *text = fr_source_text(place.source, NULL);
+    uint32_t shown = 0;
+    for (uint32_t at = place.begin; at < offset;) {
+        size_t meaning;
+        at += (uint32_t)piece_at(text + at, text + place.end, &meaning);
+        shown += (uint32_t)meaning;
+    }
+    return shown;
+}
+
+// Bytes of what is shown to a place in the buffer.
+static void place_of(StudioTextPanel *panel, const char *shown, uint32_t offset, GtkTextIter *at) {
+    gtk_text_buffer_get_iter_at_offset(
+        buffer_of(panel), at,
+        (int)g_utf8_strlen(shown, (gssize)MIN((size_t)offset, strlen(shown))));
 }
 
 static void mark(StudioTextPanel *panel, const FrDiags *diags) {
@@ -66,47 +123,60 @@ static void mark(StudioTextPanel *panel, const FrDiags *diags) {
     gtk_text_buffer_get_bounds(buffer_of(panel), &begin, &end);
     gtk_text_buffer_remove_tag(buffer_of(panel), panel->error, &begin, &end);
     gtk_text_buffer_remove_tag(buffer_of(panel), panel->warning, &begin, &end);
-    size_t size;
-    const char *text = fr_source_text(studio_document_source(panel->document), &size);
+    char *shown = text_of(panel);
     for (size_t i = 0; diags != NULL && i < fr_diags_count(diags); i++) {
         const FrDiag *diag = fr_diags_get(diags, i);
-        if (diag->span.source == NULL || diag->span.end > size) {
+        uint32_t from = diag->span.source == NULL ? FR_NONE : shown_offset(panel, diag->span.begin);
+        uint32_t to = from == FR_NONE ? FR_NONE : shown_offset(panel, diag->span.end);
+        if (from == FR_NONE || to == FR_NONE) {
             continue;
         }
-        place_of(panel, text, diag->span.begin, &begin);
-        place_of(panel, text, MAX(diag->span.end, diag->span.begin + 1), &end);
+        place_of(panel, shown, from, &begin);
+        place_of(panel, shown, MAX(to, from + 1), &end);
         gtk_text_buffer_apply_tag(buffer_of(panel),
                                   diag->severity == FR_ERROR ? panel->error : panel->warning,
                                   &begin, &end);
     }
+    g_free(shown);
 }
 
-void studio_text_panel_show(StudioTextPanel *panel, StudioDocument *document,
-                            const FrDiags *diags) {
-    panel->document = document;
-    size_t size;
-    const char *text = fr_source_text(studio_document_source(document), &size);
-    if (!panel->is_typing && g_utf8_validate(text, (gssize)size, NULL)) {
-        char *shown = text_of(panel);
+static void fill(StudioTextPanel *panel, const char *text) {
+    char *shown = text_of(panel);
+    if (strcmp(shown, text) != 0) {
+        GtkTextIter at;
+        gtk_text_buffer_get_iter_at_mark(buffer_of(panel), &at,
+                                         gtk_text_buffer_get_insert(buffer_of(panel)));
+        int line = gtk_text_iter_get_line(&at);
         panel->is_showing = TRUE;
-        if (strcmp(shown, text) != 0) {
-            GtkTextMark *cursor = gtk_text_buffer_get_insert(buffer_of(panel));
-            GtkTextIter at;
-            gtk_text_buffer_get_iter_at_mark(buffer_of(panel), &at, cursor);
-            int line = gtk_text_iter_get_line(&at);
-            gtk_text_buffer_set_text(buffer_of(panel), text, (int)size);
-            gtk_text_buffer_get_iter_at_line(buffer_of(panel), &at, line);
-            gtk_text_buffer_place_cursor(buffer_of(panel), &at);
-        }
+        gtk_text_buffer_set_text(buffer_of(panel), text, -1);
         panel->is_showing = FALSE;
-        g_free(shown);
+        gtk_text_buffer_get_iter_at_line(buffer_of(panel), &at, line);
+        gtk_text_buffer_place_cursor(buffer_of(panel), &at);
     }
+    g_free(shown);
+}
+
+void studio_text_panel_show(StudioTextPanel *panel, StudioDocument *document, uint32_t element,
+                            const FrDiags *diags) {
+    const FrContents *contents = studio_document_contents(document);
+    panel->document = document;
+    g_free(panel->place);
+    panel->place = element == FR_NONE ? NULL : studio_place_of(contents, element);
+    char *text = element == FR_NONE
+                     ? g_strdup(fr_source_text(studio_document_source(document), NULL))
+                     : fr_contents_text(contents, element, NULL);
+    if (!panel->is_typing && g_utf8_validate(text, -1, NULL)) {
+        fill(panel, text);
+    }
+    g_free(text);
     mark(panel, diags);
 }
 
 void studio_text_panel_go(StudioTextPanel *panel, uint32_t offset) {
     GtkTextIter at;
-    place_of(panel, fr_source_text(studio_document_source(panel->document), NULL), offset, &at);
+    char *shown = text_of(panel);
+    place_of(panel, shown, offset, &at);
+    g_free(shown);
     gtk_text_buffer_place_cursor(buffer_of(panel), &at);
     gtk_text_view_scroll_to_iter(GTK_TEXT_VIEW(panel->view), &at, 0.2, FALSE, 0, 0);
     gtk_widget_grab_focus(panel->view);
@@ -132,6 +202,7 @@ static void studio_text_panel_dispose(GObject *object) {
     StudioTextPanel *panel = STUDIO_TEXT_PANEL(object);
     g_clear_handle_id(&panel->seal, g_source_remove);
     panel->document = NULL;
+    g_clear_pointer(&panel->place, g_free);
     g_clear_object(&panel->buffer);
     G_OBJECT_CLASS(studio_text_panel_parent_class)->dispose(object);
 }
@@ -160,7 +231,6 @@ static void studio_text_panel_init(StudioTextPanel *panel) {
     gtk_source_view_set_insert_spaces_instead_of_tabs(GTK_SOURCE_VIEW(panel->view), TRUE);
     gtk_source_view_set_auto_indent(GTK_SOURCE_VIEW(panel->view), TRUE);
     gtk_text_view_set_monospace(GTK_TEXT_VIEW(panel->view), TRUE);
-    gtk_widget_set_name(panel->view, "text");
     gtk_accessible_update_property(GTK_ACCESSIBLE(panel->view), GTK_ACCESSIBLE_PROPERTY_LABEL,
                                    "Text of the document", -1);
     g_signal_connect(panel->buffer, "changed", G_CALLBACK(on_changed), panel);
@@ -171,6 +241,11 @@ static void studio_text_panel_init(StudioTextPanel *panel) {
     gtk_box_append(GTK_BOX(panel), scrolled);
 }
 
-GtkWidget *studio_text_panel_new(void) {
-    return g_object_new(STUDIO_TYPE_TEXT_PANEL, NULL);
+GtkWidget *studio_text_panel_new(const char *language) {
+    StudioTextPanel *panel = g_object_new(STUDIO_TYPE_TEXT_PANEL, NULL);
+    gtk_widget_set_name(panel->view, language);
+    gtk_source_buffer_set_language(panel->buffer,
+                                   gtk_source_language_manager_get_language(
+                                       gtk_source_language_manager_get_default(), language));
+    return GTK_WIDGET(panel);
 }

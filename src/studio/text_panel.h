@@ -9,8 +9,11 @@
 #define STUDIO_TYPE_TEXT_PANEL (studio_text_panel_get_type())
 G_DECLARE_FINAL_TYPE(StudioTextPanel, studio_text_panel, STUDIO, TEXT_PANEL, GtkBox)
 
-GtkWidget *studio_text_panel_new(void);
-/// Shows the text as it is now; what the user types changes the document.
-void studio_text_panel_show(StudioTextPanel *panel, StudioDocument *document, const FrDiags *diags);
+/// `language`: of its highlighting, "xml" or "frond-lsystem".
+GtkWidget *studio_text_panel_new(const char *language);
+/// Shows the text as it is now, of the whole document or (not FR_NONE) within an element; what the
+/// user types changes the document.
+void studio_text_panel_show(StudioTextPanel *panel, StudioDocument *document, uint32_t element,
+                            const FrDiags *diags);
 /// Puts the cursor at a byte.
 void studio_text_panel_go(StudioTextPanel *panel, uint32_t offset);

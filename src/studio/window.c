@@ -68,7 +68,24 @@ void studio_window_select(StudioWindow *window, uint32_t element) {
                            : studio_place_of(studio_document_contents(window->document), element);
     studio_window_unpick(window);
     update_panels(window);
+    studio_window_show_texts(window);
     studio_window_update_actions(window);
+}
+
+// A plant that is an L-system shows its text instead of a graph.
+void studio_window_show_texts(StudioWindow *window) {
+    studio_text_panel_show(window->text, window->document, FR_NONE, window->diags);
+    const FrContents *contents = studio_document_contents(window->document);
+    uint32_t plant = studio_window_plant(window);
+    uint32_t lsystem = plant == FR_NONE ? FR_NONE : fr_contents_child(contents, plant, "lsystem");
+    bool has_graph = plant != FR_NONE && studio_graph_of(window->document, plant) != FR_NONE;
+    GtkStack *side = GTK_STACK(window->side);
+    gtk_stack_page_set_visible(gtk_stack_get_page(side, GTK_WIDGET(window->lsystem)),
+                               lsystem != FR_NONE);
+    gtk_stack_page_set_visible(gtk_stack_get_page(side, GTK_WIDGET(window->graph)), has_graph);
+    if (lsystem != FR_NONE) {
+        studio_text_panel_show(window->lsystem, window->document, lsystem, window->diags);
+    }
 }
 
 static void update_title(StudioWindow *window) {
@@ -144,7 +161,7 @@ static void on_document_changed(void *user) {
     StudioWindow *window = user;
     update_title(window);
     update_panels(window);
-    studio_text_panel_show(window->text, window->document, window->diags);
+    studio_window_show_texts(window);
     studio_window_update_actions(window);
     studio_window_request(window);
 }
@@ -192,11 +209,14 @@ void studio_window_take(StudioWindow *window, StudioDocument *document) {
     const FrContents *contents = studio_document_contents(document);
     uint32_t plant = contents == NULL ? FR_NONE : fr_contents_child(contents, 0, "plant");
     bool has_graph = plant != FR_NONE && studio_graph_of(document, plant) != FR_NONE;
-    gtk_stack_set_visible_child_name(GTK_STACK(window->side), has_graph          ? "graph"
-                                                              : contents == NULL ? "text"
-                                                                                 : "things");
+    bool has_lsystem = plant != FR_NONE && fr_contents_child(contents, plant, "lsystem") != FR_NONE;
+    const char *page = contents == NULL ? "text"
+                       : has_graph      ? "graph"
+                       : has_lsystem    ? "lsystem"
+                                        : "things";
     studio_window_start_builder(window);
     on_document_changed(window);
+    gtk_stack_set_visible_child_name(GTK_STACK(window->side), page);
     gtk_widget_grab_focus(GTK_WIDGET(window->viewport));
 }
 

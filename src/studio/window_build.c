@@ -55,7 +55,7 @@ static void take(StudioWindow *window, const StudioBuilt *built) {
     studio_time_strip_continue(window->strip);
     studio_window_update_problem(window);
     studio_inspector_set_diags(window->inspector, window->diags);
-    studio_text_panel_show(window->text, window->document, window->diags);
+    studio_window_show_texts(window);
 }
 
 void studio_window_collect(StudioWindow *window) {

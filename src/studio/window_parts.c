@@ -135,9 +135,11 @@ static GtkWidget *make_side(StudioWindow *window) {
     window->side = gtk_stack_new();
     window->graph = STUDIO_GRAPH_PANEL(studio_graph_panel_new());
     window->things = STUDIO_THINGS_PANEL(studio_things_panel_new());
-    window->text = STUDIO_TEXT_PANEL(studio_text_panel_new());
+    window->lsystem = STUDIO_TEXT_PANEL(studio_text_panel_new("frond-lsystem"));
+    window->text = STUDIO_TEXT_PANEL(studio_text_panel_new("xml"));
     GtkStack *stack = GTK_STACK(window->side);
     gtk_stack_add_titled(stack, GTK_WIDGET(window->graph), "graph", "Graph");
+    gtk_stack_add_titled(stack, GTK_WIDGET(window->lsystem), "lsystem", "L-system");
     gtk_stack_add_titled(stack, GTK_WIDGET(window->things), "things", "Contents");
     gtk_stack_add_titled(stack, GTK_WIDGET(window->text), "text", "Text");
     gtk_widget_set_vexpand(window->side, TRUE);

@@ -43,7 +43,7 @@ struct _StudioWindow {
     GtkWidget *side; ///< stack of graph, things and text
     StudioGraphPanel *graph;
     StudioThingsPanel *things;
-    StudioTextPanel *text;
+    StudioTextPanel *text, *lsystem;
     StudioInspector *inspector;
     StudioTimeStrip *strip;
     GtkWidget *picked_bar, *picked_text;
@@ -80,6 +80,8 @@ uint32_t studio_window_selected(const StudioWindow *window);
 uint32_t studio_window_plant(const StudioWindow *window);
 /// Goes to the place of the first problem.
 void studio_window_show_problem(StudioWindow *window);
+/// Shows the text of the document, and of the L-system that its plant is.
+void studio_window_show_texts(StudioWindow *window);
 /// Shows or hides what is wrong.
 void studio_window_update_problem(StudioWindow *window);
 

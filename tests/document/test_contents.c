@@ -141,6 +141,30 @@ static void test_text(void) {
     fr_contents_free(contents);
 }
 
+static void test_text_among_others(void) {
+    static const char odd[] = "<frond><function id='f'>\n  <!-- a -->\n  <define id='d'/>\n"
+                              "  <![CDATA[x<y]]>\n</function><function id='g'>a<b/>c</function>"
+                              "<function id='h'><b/></function></frond>";
+    FrContents *contents = contents_of(odd);
+    uint32_t first = fr_contents_find(contents, 0, "f"),
+             parted = fr_contents_find(contents, 0, "g");
+    char *content = fr_contents_text(contents, first, NULL);
+    g_assert_cmpstr(content, ==, "x<y");
+    char *written = after(contents, fr_contents_set_text(contents, first, "x>y"));
+    g_assert_nonnull(
+        strstr(written, "  <!-- a -->\n  <define id='d'/>\n  <![CDATA[x>y]]>\n</func"));
+    g_free(written);
+    written = after(contents, fr_contents_set_text(contents, parted, "z"));
+    g_assert_cmpstr(written, ==, odd);
+    g_free(written);
+    written =
+        after(contents, fr_contents_set_text(contents, fr_contents_find(contents, 0, "h"), "z"));
+    g_assert_nonnull(strstr(written, "<function id='h'><b/>z</function>"));
+    g_free(written);
+    g_free(content);
+    fr_contents_free(contents);
+}
+
 static void test_several(void) {
     FrContents *contents = contents_of(text);
     GArray *splices = g_array_new(FALSE, FALSE, sizeof(FrSplice));
@@ -177,6 +201,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/document/contents/elements come and go with their lines",
                     test_elements_come_and_go);
     g_test_add_func("/document/contents/text is written so that it reads as meant", test_text);
+    g_test_add_func("/document/contents/text among other things leaves them",
+                    test_text_among_others);
     g_test_add_func("/document/contents/several splices are done at once", test_several);
     g_test_add_func("/document/contents/what is not well-formed has no contents", test_broken);
     return g_test_run();

@@ -28,6 +28,23 @@ BEGINNING = """<?xml version="1.0" encoding="UTF-8"?>
 """
 
 
+WEED = """<frond version="1">
+  <plant id="weed">
+    <lsystem steps="4">
+      <define id="turn" value="25"/>
+      <![CDATA[
+Lsystem: 1
+derivation length: 4
+axiom: F(0.02)
+F(x) --> F(x)[+(turn)F(x)]F(x)[-(turn)F(x)]F(x)
+endlsystem
+]]>
+    </lsystem>
+  </plant>
+</frond>
+"""
+
+
 class Run:
     """One studio for all tests, as a person has one."""
 
@@ -174,6 +191,39 @@ def test_hand(run):
     assert studio.state()["digest"] == before["digest"]
 
 
+def test_lsystem(run):
+    """an L-system is typed and stepped"""
+    studio = run.studio
+    weed = os.path.join(run.home, "weed.frond")
+    with open(weed, "w", encoding="utf-8") as file:
+        file.write(WEED)
+    studio.ask(f"open {weed}")
+    studio.wait()
+    first = studio.state()
+    run.picture("lsystem")
+    x, y, width, height = studio.where("steps")
+    studio.click([x + width - 48, y + height / 2])  # one less
+    studio.wait()
+    fewer = studio.state()
+    assert fewer["triangles"] < first["triangles"], fewer
+    studio.click(studio.middle("frond-lsystem", 0.5, 0.3))
+    studio.pointer("key", "ctrl+Home")
+    studio.pointer("type", "/* a */")
+    studio.wait()
+    typed = studio.state()
+    assert typed["digest"] != fewer["digest"] and typed["problems"] == 0, typed
+    studio.pointer("type", "oops(")
+    studio.wait()
+    assert studio.state()["problems"] > 0
+    run.picture("lsystem-mistake")
+    while studio.state()["steps"] > 0:
+        studio.ask("do undo")
+    studio.wait()
+    assert studio.state()["digest"] == first["digest"]
+    studio.ask(f"open {run.file}")
+    studio.wait()
+
+
 def test_mistake(run):
     """a mistake is shown at its place and the last good plant stays"""
     studio = run.studio
@@ -253,7 +303,7 @@ def test_killed(run):
     assert run.studio.quit() == 0
 
 
-TESTS = [test_welcome, test_examples, test_flower, test_link, test_slider, test_curve, test_view, test_hand,
+TESTS = [test_welcome, test_examples, test_lsystem, test_flower, test_link, test_slider, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
 
