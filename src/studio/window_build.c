@@ -11,16 +11,18 @@ enum { POLL_MILLISECONDS = 100 };
 
 // ---- what comes back ---------------------------------------------------------------------------
 
-static void show_amount(StudioWindow *window, const StudioTimes *times) {
+// What there is, and how long an edit took; opening a document is no edit.
+static void show_amount(StudioWindow *window, const StudioTimes *times, bool is_edit) {
     StudioAmount amount = studio_viewport_amount(window->viewport);
     double milliseconds =
         1000 * (times->read + times->build + times->view + amount.uploaded_seconds);
     char *leaves = studio_count_text(amount.leaves);
     char *triangles = studio_count_text(amount.triangles);
-    char *text =
-        g_strdup_printf("%s leaves   %s triangles   %.0f ms", leaves, triangles, milliseconds);
+    char *time = is_edit ? g_strdup_printf("   %.0f ms", milliseconds) : g_strdup("");
+    char *text = g_strdup_printf("%s leaves   %s triangles%s", leaves, triangles, time);
     gtk_label_set_text(GTK_LABEL(window->amount), text);
     g_free(text);
+    g_free(time);
     g_free(triangles);
     g_free(leaves);
 }
@@ -41,7 +43,7 @@ static void take(StudioWindow *window, const StudioBuilt *built) {
     }
     if (built->view != NULL) {
         window->times = built->times;
-        show_amount(window, &built->times);
+        show_amount(window, &built->times, studio_document_steps(window->document) > 0);
         studio_graph_panel_set_counts(window->graph, built->counts);
     }
     if (built->status == FR_CANCELLED) {

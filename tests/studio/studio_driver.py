@@ -53,7 +53,7 @@ class Studio:
             os.environ, DISPLAY=display.name, GDK_BACKEND="x11", GTK_A11Y="none",
             GSETTINGS_BACKEND="memory", LIBGL_ALWAYS_SOFTWARE="1", LC_ALL="C.UTF-8",
             GSK_RENDERER="cairo", G_DEBUG="fatal-criticals", FROND_STUDIO_ALONE="yes",
-            XDG_CONFIG_HOME=os.path.join(home, "config"),
+            HOME=home, XDG_CONFIG_HOME=os.path.join(home, "config"),
             XDG_STATE_HOME=os.path.join(home, "state"),
             XDG_DATA_HOME=os.path.join(home, "data"))
         self.program = subprocess.Popen(
