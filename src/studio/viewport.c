@@ -276,13 +276,9 @@ const char *studio_viewport_error(StudioViewport *viewport) {
     return viewport->error;
 }
 
-void studio_viewport_take(StudioViewport *viewport, const StudioView *view, bool is_coarse) {
+void studio_viewport_take(StudioViewport *viewport, const StudioView *view) {
     gtk_gl_area_make_current(GTK_GL_AREA(viewport));
     StudioStore *store = studio_renderer_store(viewport->renderer);
-    if (is_coarse) {
-        studio_store_update_coarse(store, view);
-        return; // what is shown stays; the next move draws it
-    }
     studio_store_update(store, view);
     studio_renderer_invalidate(viewport->renderer, true);
     double min[3], max[3];

@@ -20,7 +20,7 @@ bool studio_viewport_is_ready(StudioViewport *viewport);
 /// Why it never will be; NULL: it will.
 const char *studio_viewport_error(StudioViewport *viewport);
 /// Sends a view to the graphics card. The first one is framed.
-void studio_viewport_take(StudioViewport *viewport, const StudioView *view, bool is_coarse);
+void studio_viewport_take(StudioViewport *viewport, const StudioView *view);
 /// The next view is of another document: it is framed.
 void studio_viewport_forget(StudioViewport *viewport);
 void studio_viewport_add_picture(StudioViewport *viewport, const StudioPicture *picture);

@@ -29,10 +29,7 @@ static void show_amount(StudioWindow *window, const StudioTimes *times, bool is_
 
 static void take(StudioWindow *window, const StudioBuilt *built) {
     if (built->view != NULL) {
-        studio_viewport_take(window->viewport, built->view, built->is_coarse);
-    }
-    if (built->is_coarse) {
-        return;
+        studio_viewport_take(window->viewport, built->view);
     }
     window->shown = built->revision;
     g_clear_pointer(&window->diags, fr_diags_free);

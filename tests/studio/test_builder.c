@@ -1,5 +1,6 @@
 /// Builds off the main thread: the newest is shown, the last good one stays, all can be stopped.
 #include "studio.h"
+#include "studio/model/place.h"
 
 #include <math.h>
 
@@ -84,12 +85,21 @@ static void test_leaves(Fixture *fixture, gconstpointer data) {
         }
     }
     g_assert_cmpfloat(high - low, >, 0.9f * (highest - lowest));
-    studio_builder_release(fixture->builder);
-    built = await(fixture);
-    g_assert_true(built->is_coarse);
-    plant = g_ptr_array_index(built->view->plants, 0);
+    // What is drawn while it moves has wood, too, but little.
     g_assert_nonnull(plant->coarse_wood);
-    g_assert_cmpuint(plant->coarse_wood->index_count, >, 0);
+    g_assert_cmpuint(plant->coarse_wood->index_count, >, 3 * 1000);
+    g_assert_cmpuint(plant->coarse_wood->index_count, <, 3 * 60000);
+    studio_builder_release(fixture->builder);
+    // An edit of leaves leaves it as it is.
+    studio_set(document,
+               studio_place_find(studio_document_contents(document),
+                                 "frond/plant:chestnut/pgraph/leaf:leaf"),
+               "width", "0.06", false);
+    const FrMesh *wood = plant->coarse_wood;
+    request(fixture, document, NAN);
+    built = await(fixture);
+    plant = g_ptr_array_index(built->view->plants, 0);
+    g_assert_true(plant->coarse_wood == wood);
     studio_builder_release(fixture->builder);
     studio_document_free(document);
 }

@@ -147,6 +147,43 @@ static void paint_looks(StudioBuilder *builder) {
     }
 }
 
+static uint64_t count_nodes(const StudioView *view) {
+    uint64_t nodes = 0;
+    for (guint p = 0; p < view->plants->len; p++) {
+        nodes += ((const StudioPlant *)g_ptr_array_index(view->plants, p))->plant->nodes.count;
+    }
+    return nodes;
+}
+
+static bool is_same_wood(const FrSkin *skin) {
+    uint32_t count;
+    const FrSkinPart *parts = fr_skin_parts(skin, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (parts[i].is_moved || parts[i].changed_vertex < parts[i].changed_vertex_end ||
+            parts[i].changed_index < parts[i].changed_index_end) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Takes a new view; large ones get what is drawn while they move, taken over where no wood changed.
+static void adopt_view(StudioBuilder *builder, StudioView *view, const FrContext *context) {
+    StudioView *old = builder->view;
+    for (guint i = 0; old != NULL && i < MIN(old->plants->len, view->plants->len); i++) {
+        StudioPlant *from = g_ptr_array_index(old->plants, i);
+        StudioPlant *to = g_ptr_array_index(view->plants, i);
+        if (from->wood == to->wood && is_same_wood(to->wood)) {
+            to->coarse_wood = g_steal_pointer(&from->coarse_wood);
+        }
+    }
+    studio_view_free(old);
+    builder->view = view;
+    if (count_nodes(view) >= COARSE_FROM) {
+        studio_view_add_coarse(view, context);
+    }
+}
+
 // The view of what grows step by step. The document is taken over or freed.
 static FrStatus grow(StudioBuilder *builder, const Request *request, FrDocument *document,
                      const FrContext *context, StudioBuilt *built) {
@@ -166,8 +203,7 @@ static FrStatus grow(StudioBuilder *builder, const Request *request, FrDocument 
     calm.progress = NULL;
     status = studio_grower_view(builder->grower, &calm, &view);
     if (status == FR_OK) {
-        studio_view_free(builder->view);
-        builder->view = view;
+        adopt_view(builder, view, &calm);
         built->view = view;
     }
     built->is_growing = true;
@@ -181,10 +217,9 @@ static FrStatus rebuild(StudioBuilder *builder, FrDocument *document, const FrCo
     FrStatus status = fr_rebuild_update(builder->rebuild, document, -1, context);
     if (status == FR_OK) {
         gint64 began = g_get_monotonic_time();
-        studio_view_free(builder->view);
         FrContext calm = *context; // the rebuild is done: its view is made whole
         calm.progress = NULL;
-        builder->view = studio_view_new(builder->rebuild, &calm);
+        adopt_view(builder, studio_view_new(builder->rebuild, &calm), &calm);
         built->view = builder->view;
         built->times.view = seconds_since(began);
     }
@@ -227,31 +262,6 @@ static void deliver(StudioBuilder *builder, StudioBuilt *built) {
     g_mutex_unlock(&builder->lock);
 }
 
-static uint64_t count_nodes(const StudioView *view) {
-    uint64_t nodes = 0;
-    for (guint p = 0; p < view->plants->len; p++) {
-        nodes += ((const StudioPlant *)g_ptr_array_index(view->plants, p))->plant->nodes.count;
-    }
-    return nodes;
-}
-
-// While nothing newer is asked for, the view gets what is drawn while it moves.
-static void refine(StudioBuilder *builder, FrContext *context, uint64_t revision) {
-    g_mutex_lock(&builder->lock);
-    bool is_idle = builder->waiting == NULL && !builder->is_over;
-    g_mutex_unlock(&builder->lock);
-    if (!is_idle || count_nodes(builder->view) < COARSE_FROM) {
-        return;
-    }
-    context->diags = NULL;
-    studio_view_add_coarse(builder->view, context);
-    StudioBuilt *built = g_new0(StudioBuilt, 1);
-    built->revision = revision;
-    built->view = builder->view;
-    built->is_coarse = true;
-    deliver(builder, built);
-}
-
 static void serve(StudioBuilder *builder, Request *request, FrProgress *progress) {
     FrContext context = fr_context_default();
     context.pool = builder->pool;
@@ -261,11 +271,7 @@ static void serve(StudioBuilder *builder, Request *request, FrProgress *progress
     built->revision = request->revision;
     built->diags = context.diags;
     built->status = build(builder, request, &context, built);
-    bool is_shown = built->view != NULL;
     deliver(builder, built);
-    if (is_shown) {
-        refine(builder, &context, request->revision);
-    }
 }
 
 static gpointer run(gpointer data) {

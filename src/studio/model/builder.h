@@ -28,7 +28,6 @@ typedef struct StudioBuilt {
     FrStatus status;
     FrDiags *diags;         ///< what is wrong, and warnings; with places in the text
     const StudioView *view; ///< NULL: nothing new to draw. Valid until studio_builder_release()
-    bool is_coarse;         ///< only the coarse wood is new
     GArray *counts;         ///< StudioCount; NULL without a view
     StudioTimes times;
     bool is_growing;           ///< its plants grow bud by bud, …

@@ -299,6 +299,9 @@ void studio_view_add_coarse(StudioView *view, const FrContext *context) {
     params.collar = 0;
     for (guint i = 0; i < view->plants->len; i++) {
         StudioPlant *plant = g_ptr_array_index(view->plants, i);
+        if (plant->coarse_wood != NULL) {
+            continue; // taken over
+        }
         uint16_t *flags = g_new(uint16_t, plant->plant->axes.count + 1);
         FrPlant thin = thinned(plant->plant, flags);
         FrStatus status = fr_skin_plant(&thin, &params, FR_UP_Z, context, &plant->coarse_wood);

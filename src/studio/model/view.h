@@ -60,7 +60,7 @@ StudioView *studio_view_new(const FrRebuild *rebuild, const FrContext *context);
 /// The same of any scene, with the skin of each of its plants.
 StudioView *studio_view_of(const FrScene *scene, const FrSkin *const *skins,
                            const FrContext *context);
-/// Makes the coarse wood. Stops when cancelled; what is missing then stays NULL.
+/// Makes the coarse wood where there is none yet.
 void studio_view_add_coarse(StudioView *view, const FrContext *context);
 void studio_view_free(StudioView *view);
 /// The digest of all that a material's pictures depend on.

@@ -222,7 +222,7 @@ static void copy_looks(Plant *plant, const StudioPlant *from) {
 
 static void send_plant(Plant *plant, const StudioPlant *from) {
     send_wood(plant, from->wood);
-    g_array_set_size(plant->coarse, 0);
+    send_mesh(plant->coarse, from->coarse_wood);
     send_mesh(plant->foliage, from->foliage);
     send_shapes(plant, from);
     g_array_set_size(plant->batches, 0);
@@ -296,13 +296,6 @@ void studio_store_update(StudioStore *store, const StudioView *view) {
     glFinish();
     measure(store);
     store->amount.uploaded_seconds = (double)(g_get_monotonic_time() - began) * 1e-6;
-}
-
-void studio_store_update_coarse(StudioStore *store, const StudioView *view) {
-    for (guint i = 0; i < view->plants->len && i < store->plants->len; i++) {
-        const StudioPlant *plant = g_ptr_array_index(view->plants, i);
-        send_mesh(((Plant *)g_ptr_array_index(store->plants, i))->coarse, plant->coarse_wood);
-    }
 }
 
 void studio_store_add_picture(StudioStore *store, const StudioPicture *picture) {
