@@ -97,6 +97,39 @@ static void set_buds(json_t *row, const FrSceneStep *step) {
     set_text(row, "digest", digest);
 }
 
+static bool is_alive(const FrPlant *plant) {
+    bool is_alive = false;
+    for (uint32_t i = 0; i < plant->buds.count; i++) {
+        is_alive |= plant->buds.state[i] == FR_BUD_ACTIVE;
+    }
+    return is_alive;
+}
+
+static double wood_of(const FrPlant *plant) {
+    double sum = 0;
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        double radius = (double)plant->nodes.radius[i];
+        sum += G_PI * radius * radius * (double)plant->nodes.length[i];
+    }
+    return sum;
+}
+
+/// How many plants that grow bud by bud still grow, and the volume of their wood in m³.
+static void set_living(json_t *stats, const FrScene *scene) {
+    uint64_t living = 0;
+    double wood = 0;
+    for (guint i = 0; i < scene->stands->len - scene->obstacles; i++) {
+        uint32_t index = g_array_index(scene->stands, FrStand, i).plant;
+        const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, index).plant;
+        if (is_alive(plant)) {
+            living++;
+            wood += wood_of(plant);
+        }
+    }
+    set_count(stats, "living", living);
+    json_object_set_new(stats, "wood", json_real(wood));
+}
+
 /// What every step of plants that grow in the light took and made.
 static void set_steps(json_t *stats, const FrScene *scene) {
     if (scene->steps == NULL || scene->steps->len == 0) {
@@ -119,6 +152,7 @@ static void set_steps(json_t *stats, const FrScene *scene) {
     const FrSceneStep *last = &g_array_index(scene->steps, FrSceneStep, scene->steps->len - 1);
     if (last->grows_buds) {
         set_count(stats, "active_buds", last->active_buds);
+        set_living(stats, scene);
     }
     json_object_set_new(stats, "per_step", steps);
 }

@@ -379,6 +379,21 @@ static void append_graph(Maker *maker) {
     append(maker, "</pgraph>\n");
 }
 
+/// A kind of plant that grows bud by bud, with rows of its own at times.
+static void append_species(Maker *maker) {
+    append(maker, "<species");
+    append_attributes(maker, fr_species_table(), MOST_ATTRIBUTES);
+    append(maker, ">\n");
+    for (uint32_t i = 0, count = one_in(maker, 3) ? 1 + pick(maker, 3) : 0; i < count; i++) {
+        append(maker, "<order");
+        append_attributes(maker, fr_order_table(), 3);
+        append(maker, "/>\n");
+    }
+    append(maker, "<sliders");
+    append_attributes(maker, fr_species_sliders_table(), 2);
+    append(maker, "/>\n</species>\n");
+}
+
 static void append_plant(Maker *maker, uint32_t index) {
     append(maker, "<plant id=\"plant%u\" seed=\"%u\">\n", index, pick(maker, 1000));
     maker->sliders = pick(maker, 3);
@@ -387,7 +402,11 @@ static void append_plant(Maker *maker, uint32_t index) {
         append_real(maker, value_within(maker, 0, 2));
         append(maker, "\"/>\n");
     }
-    append_graph(maker);
+    if (one_in(maker, 60)) {
+        append_species(maker);
+    } else {
+        append_graph(maker);
+    }
     append(maker, "</plant>\n");
 }
 
@@ -410,7 +429,8 @@ static void append_head(Maker *maker) {
 static void append_scene(Maker *maker, uint32_t plants) {
     append(maker, "<scene");
     append_attributes(maker, fr_scene_table(), 3);
-    append(maker, ">\n");
+    append(maker, ">\n<growth steps=\"%u\" views=\"6\" resolution=\"64\" seed=\"%u\"/>\n",
+           pick(maker, 8), pick(maker, 9));
     for (uint32_t i = 0, count = pick(maker, 3); i < count; i++) {
         append(maker, "<place plant=\"plant%u\" at=\"%u, 0, 0\" turn=\"30\" scale=\"",
                pick(maker, plants), pick(maker, 9));
