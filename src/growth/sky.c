@@ -66,6 +66,7 @@ typedef struct Looking {
     const FrLiveBudAt *buds;
     uint32_t bud_count;
     vec3s low, high;  ///< box around buds and leaves
+    float lowest;     ///< height of the lowest bud
     float pixel;      ///< m
     int width;        ///< pixels
     float **depth;    ///< by worker
@@ -137,49 +138,82 @@ static void draw_shades(const View *view, const FrShades *shades) {
     }
 }
 
-static float edge(const float a[2], const float b[2], float x, float y) {
-    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+/// A triangle in a picture: its corners in pixels and how near they are to the sky.
+typedef struct Flat {
+    float at[3][2];
+    float depth[3];
+} Flat;
+
+/// Where a row meets a triangle: columns [from, to).
+static bool span_of(const Flat *flat, float area, float y, int width, int *from, int *to) {
+    float low = -0.5f, high = (float)width - 0.5f; // middles of pixels from here to there
+    for (int i = 0; i < 3; i++) {
+        const float *a = flat->at[i], *b = flat->at[(i + 1) % 3];
+        // Inside, (b − a) × (p − a) has the sign of the area: linear in x along a row.
+        float slope = -(b[1] - a[1]) * area;
+        float start = ((b[0] - a[0]) * (y - a[1]) + (b[1] - a[1]) * a[0]) * area;
+        if (slope > 0) {
+            low = larger(low, -start / slope - 0.5f);
+        } else if (slope < 0) {
+            high = smaller(high, -start / slope - 0.5f);
+        } else if (start < 0) {
+            return false;
+        }
+    }
+    *from = (int)ceilf(low);
+    *to = (int)floorf(high) + 1;
+    *from = MAX(*from, 0);
+    *to = MIN(*to, width);
+    return *from < *to;
 }
 
 /// Pixels whose middle a triangle covers.
-static void draw_triangle(const View *view, const float corner[3][2], const float depth[3]) {
-    float area = edge(corner[0], corner[1], corner[2][0], corner[2][1]);
-    if (fabsf(area) < 1e-12f) {
+static void draw_triangle(const View *view, const Flat *flat) {
+    const float *a = flat->at[0], *b = flat->at[1], *c = flat->at[2];
+    float area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    if (fabsf(area) < 1e-9f) {
         return;
     }
-    int from[2], to[2];
-    for (int k = 0; k < 2; k++) {
-        float low = smaller(corner[0][k], smaller(corner[1][k], corner[2][k]));
-        float high = larger(corner[0][k], larger(corner[1][k], corner[2][k]));
-        from[k] = (int)smaller(larger(low - 0.5f, 0), (float)view->width);
-        to[k] = (int)smaller(larger(high + 1.5f, 0), (float)view->width);
-    }
-    for (int row = from[1]; row < to[1]; row++) {
-        for (int column = from[0]; column < to[0]; column++) {
-            float x = (float)column + 0.5f, y = (float)row + 0.5f;
-            float a = edge(corner[1], corner[2], x, y) / area;
-            float b = edge(corner[2], corner[0], x, y) / area;
-            float c = 1 - a - b;
-            if (a >= 0 && b >= 0 && c >= 0) {
-                float *pixel = view->depth + (size_t)row * (size_t)view->width + (size_t)column;
-                *pixel = larger(*pixel, a * depth[0] + b * depth[1] + c * depth[2]);
-            }
+    // Depth is linear over the picture.
+    float along = ((flat->depth[1] - flat->depth[0]) * (c[1] - a[1]) -
+                   (flat->depth[2] - flat->depth[0]) * (b[1] - a[1])) /
+                  area;
+    float across = ((flat->depth[2] - flat->depth[0]) * (b[0] - a[0]) -
+                    (flat->depth[1] - flat->depth[0]) * (c[0] - a[0])) /
+                   area;
+    float low = smaller(a[1], smaller(b[1], c[1])), high = larger(a[1], larger(b[1], c[1]));
+    int first = (int)larger(low - 0.5f, 0), last = (int)smaller(high + 0.5f, (float)view->width);
+    for (int row = first; row < last; row++) {
+        float y = (float)row + 0.5f;
+        int from, to;
+        if (!span_of(flat, area > 0 ? 1 : -1, y, view->width, &from, &to)) {
+            continue;
+        }
+        float *pixels = view->depth + (size_t)row * (size_t)view->width;
+        float begin = flat->depth[0] + across * (y - a[1]) + along * (0.5f - a[0]);
+        for (int column = from; column < to; column++) {
+            pixels[column] = larger(pixels[column], begin + along * (float)column);
         }
     }
 }
 
-static void draw_obstacles(const View *view, const FrGrowth *growth) {
+/// What lies no higher than all buds shades none of them.
+static void draw_obstacles(const View *view, const FrGrowth *growth, float lowest) {
     for (uint32_t o = 0; o < growth->obstacle_count; o++) {
         const FrGrownObstacle *obstacle = &growth->obstacles[o];
-        for (uint32_t i = 0; i + 2 < obstacle->index_count && !obstacle->is_clear; i += 3) {
-            float corner[3][2], depth[3];
+        for (uint32_t i = 0; i + 2 < obstacle->index_count; i += 3) {
+            Flat flat;
+            float top = -INFINITY;
             for (uint32_t k = 0; k < 3; k++) {
                 vec3s at = obstacle->positions[obstacle->indices[i + k]];
-                corner[k][0] = (glms_vec3_dot(at, view->right) - view->left) * view->scale;
-                corner[k][1] = (glms_vec3_dot(at, view->up) - view->bottom) * view->scale;
-                depth[k] = glms_vec3_dot(at, view->towards);
+                top = larger(top, at.z);
+                flat.at[k][0] = (glms_vec3_dot(at, view->right) - view->left) * view->scale;
+                flat.at[k][1] = (glms_vec3_dot(at, view->up) - view->bottom) * view->scale;
+                flat.depth[k] = glms_vec3_dot(at, view->towards);
             }
-            draw_triangle(view, corner, depth);
+            if (top > lowest) {
+                draw_triangle(view, &flat);
+            }
         }
     }
 }
@@ -210,7 +244,7 @@ static void look(void *data, size_t begin, size_t end, int worker) {
             view.depth[i] = -INFINITY;
         }
         draw_shades(&view, looking->shades);
-        draw_obstacles(&view, looking->growth);
+        draw_obstacles(&view, looking->growth, looking->lowest);
         look_at_buds(looking, &view);
     }
 }
@@ -249,6 +283,7 @@ static void lay_pictures(Looking *looking) {
     for (uint32_t i = 0; i < looking->bud_count; i++) {
         include(looking, looking->buds[i].world);
     }
+    looking->lowest = looking->low.z;
     for (uint32_t i = 0; i < looking->shades->count; i++) {
         include(looking,
                 (vec3s){{looking->shades->x[i], looking->shades->y[i], looking->shades->z[i]}});
