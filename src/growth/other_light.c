@@ -96,7 +96,7 @@ static FrMesh *obstacle_mesh(const FrGrowth *growth) {
         for (uint32_t i = 0; i < obstacle->vertex_count; i++) {
             add_vertex(mesh, obstacle->positions[i], (vec3s){{0, 0, 1}});
         }
-        for (uint32_t i = 0; i + 2 < obstacle->index_count; i += 3) {
+        for (uint32_t i = 0; i + 2 < obstacle->index_count && !obstacle->is_clear; i += 3) {
             add_triangle(mesh, first + obstacle->indices[i], first + obstacle->indices[i + 1],
                          first + obstacle->indices[i + 2]);
         }

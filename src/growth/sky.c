@@ -201,7 +201,7 @@ static void draw_triangle(const View *view, const Flat *flat) {
 static void draw_obstacles(const View *view, const FrGrowth *growth, float lowest) {
     for (uint32_t o = 0; o < growth->obstacle_count; o++) {
         const FrGrownObstacle *obstacle = &growth->obstacles[o];
-        for (uint32_t i = 0; i + 2 < obstacle->index_count; i += 3) {
+        for (uint32_t i = 0; i + 2 < obstacle->index_count && !obstacle->is_clear; i += 3) {
             Flat flat;
             float top = -INFINITY;
             for (uint32_t k = 0; k < 3; k++) {

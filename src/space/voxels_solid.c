@@ -5,27 +5,14 @@
 
 #include <math.h>
 
-/// A triangle in cells.
-typedef struct Triangle {
-    double corner[3][3];
-    double low[3], high[3];
-} Triangle;
+enum { AXES = 13 }; // 3 of the box, 9 across its and the triangle's edges, the normal
 
-/// True if `axis` separates the triangle from a cube of half width `half` about `middle`.
-static bool separates(const Triangle *triangle, const double axis[3], const double middle[3],
-                      double half) {
-    double low = INFINITY, high = -INFINITY;
-    for (int i = 0; i < 3; i++) {
-        double along = 0;
-        for (int k = 0; k < 3; k++) {
-            along += axis[k] * (triangle->corner[i][k] - middle[k]);
-        }
-        low = fmin(low, along);
-        high = fmax(high, along);
-    }
-    double reach = half * (fabs(axis[0]) + fabs(axis[1]) + fabs(axis[2]));
-    return low > reach || high < -reach;
-}
+/// A triangle in cells, by its shadow on every axis that may separate it from a box.
+typedef struct Triangle {
+    double axis[AXES][3];
+    double low[AXES], high[AXES]; ///< of its shadow
+    double reach[AXES];           ///< half the shadow of a box, over half its width
+} Triangle;
 
 static void cross(const double a[3], const double b[3], double out[3]) {
     out[0] = a[1] * b[2] - a[2] * b[1];
@@ -33,29 +20,53 @@ static void cross(const double a[3], const double b[3], double out[3]) {
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-static bool touches(const Triangle *triangle, const double middle[3], double half) {
+/// The shadows of a triangle on its axes.
+static void cast(Triangle *triangle, const double corner[3][3]) {
+    for (int k = 0; k < AXES; k++) {
+        const double *axis = triangle->axis[k];
+        triangle->low[k] = INFINITY;
+        triangle->high[k] = -INFINITY;
+        triangle->reach[k] = fabs(axis[0]) + fabs(axis[1]) + fabs(axis[2]);
+        for (int i = 0; i < 3; i++) {
+            double along = axis[0] * corner[i][0] + axis[1] * corner[i][1] + axis[2] * corner[i][2];
+            triangle->low[k] = MIN(triangle->low[k], along);
+            triangle->high[k] = MAX(triangle->high[k], along);
+        }
+    }
+}
+
+static Triangle triangle_of(const double corner[3][3]) {
+    Triangle triangle;
     double edge[3][3];
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
-            edge[i][k] = triangle->corner[(i + 1) % 3][k] - triangle->corner[i][k];
+            edge[i][k] = corner[(i + 1) % 3][k] - corner[i][k];
         }
     }
     for (int k = 0; k < 3; k++) {
-        double axis[3] = {k == 0, k == 1, k == 2};
-        if (separates(triangle, axis, middle, half)) {
-            return false;
-        }
         for (int i = 0; i < 3; i++) {
-            double both[3];
-            cross(axis, edge[i], both);
-            if (separates(triangle, both, middle, half)) {
-                return false;
-            }
+            triangle.axis[k][i] = k == i;
         }
     }
-    double normal[3];
-    cross(edge[0], edge[1], normal);
-    return !separates(triangle, normal, middle, half);
+    cross(edge[0], edge[1], triangle.axis[3]);
+    for (int k = 0; k < 9; k++) {
+        cross(triangle.axis[k / 3], edge[k % 3], triangle.axis[4 + k]);
+    }
+    cast(&triangle, corner);
+    return triangle;
+}
+
+/// True if a cube of half width `half` about `middle` touches the triangle: no axis separates them.
+static bool touches(const Triangle *triangle, const double middle[3], double half) {
+    for (int k = 0; k < AXES; k++) {
+        const double *axis = triangle->axis[k];
+        double at = axis[0] * middle[0] + axis[1] * middle[1] + axis[2] * middle[2];
+        double reach = half * triangle->reach[k];
+        if (triangle->low[k] - at > reach || triangle->high[k] - at < -reach) {
+            return false;
+        }
+    }
+    return true;
 }
 
 // A little more than half a cell, so that rounding leaves no gaps.
@@ -69,12 +80,7 @@ static void fill_brick(FrVoxels *voxels, const Triangle *triangle, const int bri
             for (int x = 0; x < 8; x++) {
                 int at[3] = {brick[0] * 8 + x, brick[1] * 8 + y, brick[2] * 8 + z};
                 double middle[3] = {at[0] + 0.5, at[1] + 0.5, at[2] + 0.5};
-                bool is_beside = false;
-                for (int k = 0; k < 3; k++) {
-                    is_beside |=
-                        triangle->high[k] < middle[k] - HALF || triangle->low[k] > middle[k] + HALF;
-                }
-                if (is_beside || !touches(triangle, middle, HALF)) {
+                if (!touches(triangle, middle, HALF)) {
                     continue;
                 }
                 if (into == NULL) {
@@ -125,17 +131,14 @@ static void add_triangle(FrVoxels *voxels, const Triangle *triangle, bool is_gro
 void fr_voxels_add_triangles(FrVoxels *voxels, const vec3s *positions, const uint32_t *indices,
                              uint32_t index_count, bool is_ground) {
     for (uint32_t i = 0; i + 2 < index_count; i += 3) {
-        Triangle triangle;
-        for (int k = 0; k < 3; k++) {
-            triangle.low[k] = INFINITY;
-            triangle.high[k] = -INFINITY;
-            for (int corner = 0; corner < 3; corner++) {
-                double at = (double)positions[indices[i + (uint32_t)corner]].raw[k];
-                triangle.corner[corner][k] = (at - voxels->origin[k]) / voxels->cell;
-                triangle.low[k] = fmin(triangle.low[k], triangle.corner[corner][k]);
-                triangle.high[k] = fmax(triangle.high[k], triangle.corner[corner][k]);
+        double corner[3][3];
+        for (uint32_t c = 0; c < 3; c++) {
+            for (int k = 0; k < 3; k++) {
+                double at = (double)positions[indices[i + c]].raw[k];
+                corner[c][k] = (at - voxels->origin[k]) / voxels->cell;
             }
         }
+        Triangle triangle = triangle_of((const double(*)[3])corner);
         add_triangle(voxels, &triangle, is_ground);
     }
 }
