@@ -19,6 +19,7 @@ typedef enum FrNurbsJoin {
     FR_JOIN_SMOOTH,  ///< it shares three and knots are uniform: the same curvature too
 } FrNurbsJoin;
 
+enum { FR_FORKS_PLAIN, FR_FORKS_RAMIFORM };
 enum { FR_MARGINS_SMOOTH, FR_MARGINS_EXACT };
 
 typedef enum FrNurbsFrames {
@@ -78,6 +79,8 @@ enum { FR_SHARE_NO, FR_SHARE_EQUAL, FR_SHARE_NEAR };
       "which exact circle is swept: seven points of a triangle or square, nine points, cubic")     \
     X(CHOICE, join, "near", 0, 0, "", "near tangent smooth",                                       \
       "what a branch shares with its parent: the fork, two points, three for one curvature")       \
+    X(CHOICE, forks, "plain", 0, 0, "", "plain ramiform",                                          \
+      "where branches begin: as their tubes meet, or with patches that lead into each other")      \
     X(CHOICE, frames, "minimal", 0, 0, "", "minimal frenet", "how profiles turn along a branch")   \
     X(INTEGER, profile_degree, "3", 1, 3, "", "", "profiles: 1 keeps corners, 3 is smooth")        \
     X(CHOICE, margins, "smooth", 0, 0, "", "smooth exact",                                         \

@@ -17,7 +17,7 @@
 #include <string.h>
 
 /// Joints that a bending axis has at least.
-enum { JOINTS = 6, JOINTS_MOST_NODES = 100000000, RANDOM_WAVE = 71 };
+enum { JOINTS = 6, JOINTS_MOST_NODES = 10000000, RANDOM_WAVE = 71 };
 /// Thin twigs yield no more than this times a branch of the yield radius.
 #define WEAKEST 3.0
 

@@ -10,6 +10,7 @@ typedef struct FrNurbsPlace {
     uint64_t piece, point, knot;
     uint32_t section; ///< tubes
     uint32_t model;   ///< organs that are copies; FR_NONE
+    bool has_fork;    ///< tubes: fork surfaces follow its caps
     uint32_t rows;    ///< of tubes, surfaces of organs; 0: nothing
 } FrNurbsPlace;
 
@@ -54,6 +55,17 @@ enum { FR_RULED_KNOTS = 4 };
 /// Takes control points through the free-form deformations around them.
 void fr_nurbs_deform(const FrNurbsJob *job, uint32_t scope, double (*points)[4], uint64_t count,
                      int worker);
+
+// ---- nurbs_fork.c ------------------------------------------------------------------------------
+
+enum { FR_FORK_PIECES = 3, FR_FORK_POINTS = 105, FR_FORK_KNOTS = 19 };
+/// Knots of all fork surfaces: 8 along u, 11 along v; after those of what is ruled.
+extern const double fr_fork_knots[FR_FORK_KNOTS];
+/// True if a branch gets fork surfaces where it begins.
+bool fr_fork_is_wanted(const FrNurbsJob *job, const FrTube *tube);
+/// Writes them: FR_FORK_PIECES pieces of FR_FORK_POINTS control points together.
+void fr_fork_write(const FrNurbsJob *job, const FrTube *tube, const double *knots,
+                   FrNurbsPiece *pieces, double (*points)[4]);
 
 // nurbs_tubes.c, nurbs_organs.c: count what there is, give it its places, write it.
 

@@ -66,6 +66,7 @@ static void write_shared_knots(FrNurbsJob *job) {
     double *knots = job->skin->knots;
     static const double ruled[FR_RULED_KNOTS] = {0, 0, 1, 1};
     memcpy(knots, ruled, sizeof ruled);
+    memcpy(knots + FR_RULED_KNOTS, fr_fork_knots, sizeof fr_fork_knots);
     for (uint32_t i = 0; i < job->sections.sections->len; i++) {
         const FrNurbsCurve *curve = &g_array_index(job->sections.sections, FrNurbsSection, i).from;
         memcpy(knots + job->section_knot[i], curve->knots,
@@ -137,7 +138,7 @@ static void job_clear(FrNurbsJob *job, int workers) {
 
 static FrStatus run(FrNurbsJob *job) {
     const FrContext *context = job->context;
-    job->knots = FR_RULED_KNOTS;
+    job->knots = FR_RULED_KNOTS + FR_FORK_KNOTS;
     fr_nurbs_place_tubes(job);
     FrStatus status = fr_nurbs_make_shapes(job);
     if (status == FR_OK && fr_progress_is_cancelled(context->progress)) {

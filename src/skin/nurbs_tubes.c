@@ -11,6 +11,7 @@ static void measure_tubes(void *data, size_t begin, size_t end, int worker) {
     for (size_t i = begin; i < end; i++) {
         fr_nurbs_path(path, &job->plan, &g_array_index(job->plan.tubes, FrTube, i), job->params);
         job->tubes[i].rows = fr_nurbs_rows(path, job->params);
+        job->tubes[i].has_fork = fr_fork_is_wanted(job, &g_array_index(job->plan.tubes, FrTube, i));
     }
 }
 
@@ -45,6 +46,8 @@ void fr_nurbs_place_tubes(FrNurbsJob *job) {
         job->pieces += has_caps ? 3 : 1;
         job->points += (uint64_t)section->from.count * (place->rows + (has_caps ? 2 : 0));
         job->knots += place->rows + 4;
+        job->pieces += place->has_fork ? FR_FORK_PIECES : 0;
+        job->points += place->has_fork ? FR_FORK_POINTS : 0;
     }
     uint32_t count = job->sections.sections->len;
     job->section_knot = g_new(uint64_t, count);
@@ -117,8 +120,13 @@ static void write_tube(const FrNurbsJob *job, uint32_t index, int worker) {
         write_cap(job, piece + 2, piece, true, path->stations[path->count - 1].at,
                   net + (size_t)width * place->rows);
     }
-    fr_nurbs_deform(job, tube->scope, all, (uint64_t)width * (place->rows + (has_caps ? 2 : 0)),
-                    worker);
+    uint64_t own = (uint64_t)width * (place->rows + (has_caps ? 2 : 0));
+    if (place->has_fork) {
+        fr_fork_write(job, tube, skin->knots + FR_RULED_KNOTS, piece + (has_caps ? 3 : 1),
+                      all + own);
+        own += FR_FORK_POINTS;
+    }
+    fr_nurbs_deform(job, tube->scope, all, own, worker);
 }
 
 static void write_tubes(void *data, size_t begin, size_t end, int worker) {

@@ -215,31 +215,30 @@ static void cut_row(FrSolid *solid, int32_t j, int32_t k) {
     }
 }
 
+/// Rows of cells: along y, then along z.
 static int compare_rows(const void *a, const void *b) {
-    int64_t p = *(const int64_t *)a, q = *(const int64_t *)b;
-    return (p > q) - (p < q);
+    const int32_t *p = a, *q = b;
+    int first = (p[1] > q[1]) - (p[1] < q[1]);
+    return first != 0 ? first : (p[0] > q[0]) - (p[0] < q[0]);
 }
 
 static void cut_rows(FrSolid *solid, const FrContext *context) {
-    GArray *rows = g_array_new(FALSE, FALSE, sizeof(int64_t));
+    GArray *rows = g_array_new(FALSE, FALSE, 2 * sizeof(int32_t));
     const FrSolidLines *lines = &solid->lines[0];
     for (size_t i = 0; i < lines->count; i++) {
         const int32_t *line = lines->crossings[i].line;
         bool is_new = i == 0 || memcmp(line, lines->crossings[i - 1].line, 2 * sizeof *line) != 0;
         for (int r = 0; r < 4 && is_new; r++) {
-            int64_t row = (int64_t)(line[1] - r / 2) * (1 << 30) + line[0] - r % 2;
-            g_array_append_val(rows, row);
+            const int32_t row[2] = {line[0] - r % 2, line[1] - r / 2};
+            g_array_append_vals(rows, row, 1);
         }
     }
     g_array_sort(rows, compare_rows);
     for (guint i = 0; i < rows->len && !fr_progress_is_cancelled(context->progress); i++) {
-        int64_t row = g_array_index(rows, int64_t, i);
-        if (i > 0 && row == g_array_index(rows, int64_t, i - 1)) {
-            continue;
+        const int32_t *row = (const int32_t *)(void *)rows->data + 2 * (size_t)i;
+        if (i == 0 || compare_rows(row, row - 2) != 0) {
+            cut_row(solid, row[0], row[1]);
         }
-        int64_t half = 1 << 29, shifted = row + half;
-        int64_t k = (shifted - (((shifted % (2 * half)) + 2 * half) % (2 * half))) / (2 * half);
-        cut_row(solid, (int32_t)(row - k * 2 * half), (int32_t)k);
     }
     g_array_unref(rows);
 }
@@ -287,8 +286,11 @@ static bool place(const FrMesh *mesh, FrSolid *solid) {
     return widest / solid->width < (1 << 19);
 }
 
-/// Triangles that the solid has, roughly, from the area of all surfaces.
-static double triangles_wanted(const double (*corners)[3], size_t triangles) {
+/// Of each square of the lattice that a surface covers, roughly.
+enum { TRIANGLES_A_CELL = 12, BYTES_A_CELL = 1200 };
+
+/// The area of all surfaces, in squares of the lattice.
+static double area_of(const double (*corners)[3], size_t triangles) {
     double area = 0.0;
     for (size_t i = 0; i < triangles; i++) {
         const double *a = corners[3 * i], *b = corners[3 * i + 1], *c = corners[3 * i + 2];
@@ -298,7 +300,7 @@ static double triangles_wanted(const double (*corners)[3], size_t triangles) {
         double z = u[0] * v[1] - u[1] * v[0];
         area += 0.5 * sqrt(x * x + y * y + z * z);
     }
-    return 12.0 * area;
+    return area;
 }
 
 static void set_normals(FrVertex *vertices, const uint32_t *indices, size_t count) {
@@ -375,10 +377,15 @@ FrStatus fr_solid_of(FrMesh **mesh, double width, const FrContext *context) {
     double(*corners)[3] = NULL;
     bool is_in_reach = place(*mesh, &solid);
     size_t triangles = is_in_reach ? take_corners(*mesh, &solid, &corners, context) : 0;
-    double wanted = is_in_reach ? triangles_wanted((const double(*)[3])corners, triangles) : 1e18;
+    double cells = is_in_reach ? area_of((const double(*)[3])corners, triangles) : 1e15;
+    const char *who = "the solid of these voxels";
     FrStatus status =
-        fr_limit_check((uint64_t)fmin(wanted, 1e18), context->limits.triangles, "triangles",
-                       "the solid of these voxels", (FrSpan){0}, context->diags);
+        fr_limit_check((uint64_t)fmin(TRIANGLES_A_CELL * cells, 1e18), context->limits.triangles,
+                       "triangles", who, (FrSpan){0}, context->diags);
+    if (status == FR_OK) {
+        status = fr_limit_check((uint64_t)fmin(BYTES_A_CELL * cells, 1e18), context->limits.bytes,
+                                "bytes", who, (FrSpan){0}, context->diags);
+    }
     if (status == FR_OK) {
         status = make(mesh, &solid, (const double(*)[3])corners, triangles, context);
     }

@@ -397,6 +397,73 @@ static void degenerate(void) {
     fr_plant_free(plant);
 }
 
+/// A stem of two long internodes with a branch in its middle.
+static FrPlant *simple_fork(void) {
+    FrPlant *plant = fr_plant_new("fork");
+    uint32_t axis = fr_plant_add_axis(plant, FR_NONE, (vec3s){{0, 0, 0}}, 0.06F);
+    fr_plant_add_node(plant, axis, GLMS_QUAT_IDENTITY, 1, 0.06F);
+    fr_plant_add_node(plant, axis, GLMS_QUAT_IDENTITY, 1, 0.06F);
+    uint32_t branch = fr_plant_add_axis(plant, 0, (vec3s){{0, 0, 0}}, 0.04F);
+    fr_plant_add_node(plant, branch, about_x(60), 1, 0.04F);
+    return plant;
+}
+
+static void ends_of(const FrNurbsSurface *s, double u, bool is_end, double p[3], double dv[3]) {
+    double du[3];
+    fr_nurbs_surface_at(s, u, is_end ? 1 : 0, p, du, dv);
+    double length = sqrt(dv[0] * dv[0] + dv[1] * dv[1] + dv[2] * dv[2]);
+    for (int k = 0; k < 3; k++) {
+        dv[k] /= length;
+    }
+}
+
+// Rings are circles around the limbs, patches leave them along the limbs, and share their sides.
+static void ramiform(void) {
+    FrPlant *plant = simple_fork();
+    FrNurbsParams params = fr_nurbs_default();
+    params.forks = FR_FORKS_RAMIFORM;
+    FrNurbsSkin *skin = skinned(plant, &params);
+    g_assert_cmpuint(skin->count, ==, 3 + 3 + 3);
+    const FrNurbsSurface *back = &skin->pieces[6].surface, *below = &skin->pieces[7].surface;
+    const FrNurbsSurface *above = &skin->pieces[8].surface;
+    vec3s heading = fr_frame_heading(plant->nodes.frame[2]);
+    const double stem[3] = {0, 0, 1};
+    const double branch[3] = {(double)heading.x, (double)heading.y, (double)heading.z};
+    for (int n = 0; n <= 20; n++) {
+        double p[3], dv[3];
+        const FrNurbsSurface *starts[] = {back, below, above};
+        for (int k = 0; k < 3; k++) {
+            ends_of(starts[k], n / 20.0, false, p, dv);
+            g_assert_cmpfloat_with_epsilon(hypot(p[0], p[1]), 0.06 * 1.01, 1e-7);
+            double along = dv[0] * stem[0] + dv[1] * stem[1] + dv[2] * stem[2];
+            g_assert_cmpfloat_with_epsilon(fabs(along), 1, 1e-9);
+        }
+        for (int k = 1; k < 3; k++) {
+            ends_of(starts[k], n / 20.0, true, p, dv);
+            double along = p[0] * branch[0] + p[1] * branch[1] + (p[2] - 1) * branch[2];
+            double off = 0;
+            for (int d = 0; d < 3; d++) {
+                double at = p[d] - (d == 2) - along * branch[d];
+                off += at * at;
+            }
+            g_assert_cmpfloat_with_epsilon(sqrt(off), 0.04 * 1.01, 1e-7);
+            g_assert_cmpfloat_with_epsilon(
+                dv[0] * branch[0] + dv[1] * branch[1] + dv[2] * branch[2], 1, 1e-6);
+        }
+    }
+    for (int n = 0; n <= 20; n++) { // in front of the fork, from below to above and to the branch
+        double v = n / 20.0, p[3], q[3];
+        fr_nurbs_surface_at(n <= 10 ? below : above, n <= 10 ? 1 : 0, v <= 0.5 ? v : 1 - v, q, NULL,
+                            NULL);
+        fr_nurbs_surface_at(back, 0, v, p, NULL, NULL);
+        for (int d = 0; d < 3; d++) {
+            g_assert_cmpfloat_with_epsilon(p[d], q[d], 1e-7);
+        }
+    }
+    fr_nurbs_skin_free(skin);
+    fr_plant_free(plant);
+}
+
 // A toothed outline: the margin of an exact half is the outline.
 static void exact_margin(void) {
     double teeth[33][2];
@@ -516,6 +583,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/nurbs/a leaf is a petiole and two ruled halves", leaf);
     g_test_add_func("/skin/nurbs/a leaf curved across has cubic arcs", curved_leaf);
     g_test_add_func("/skin/nurbs/every primitive is exact", primitives);
+    g_test_add_func("/skin/nurbs/fork surfaces join three limbs with their tangents", ramiform);
     g_test_add_func("/skin/nurbs/exact margins have all teeth of the outline", exact_margin);
     g_test_add_func("/skin/nurbs/a surface stays at the corners of its path", corners);
     g_test_add_func("/skin/nurbs/equal organs are copies of one shape", copies);
