@@ -1,13 +1,13 @@
-// Fork surfaces: a sleeve of three patches from a stem below a fork to the stem above and the branch.
-// Bloomenthal. Modeling the Mighty Maple. SIGGRAPH 1985: a ramiform is skinned by three sets of
-// splines between the limbs, two and two, each across semi-ellipses.
+// Fork surfaces: a sleeve of three patches from a stem below a fork to the stem above and the
+// branch. Bloomenthal. Modeling the Mighty Maple. SIGGRAPH 1985: a ramiform is skinned by three
+// sets of splines between the limbs, two and two, each across semi-ellipses.
 //
-// Three rings stand around the limbs, clear of one another. Each has two halves; a patch joins a half
-// of one ring to a half of another over an arc at the fork, half of an ellipse. The three arcs share
-// their ends, in front of the fork and behind it; one lies on the back of the stem, one below the
-// branch and one above it, each a little outside the corner there. Across a patch runs a circle that
-// becomes the ellipse and a circle again, along it two cubics with one tangent at the arc, which begin
-// in the directions of the limbs.
+// Three rings stand around the limbs, clear of one another. Each has two halves; a patch joins a
+// half of one ring to a half of another over an arc at the fork, half of an ellipse. The three arcs
+// share their ends, in front of the fork and behind it; one lies on the back of the stem, one below
+// the branch and one above it, each a little outside the corner there. Across a patch runs a circle
+// that becomes the ellipse and a circle again, along it two cubics with one tangent at the arc,
+// which begin in the directions of the limbs.
 #include "skin/nurbs_job.h"
 
 #include <string.h>
@@ -20,8 +20,8 @@ enum { COLUMNS = 5, ROWS = 7 };
 #define FILLET 0.3
 #define HALF_ROOT2 0.70710678118654752
 
-const double fr_fork_knots[FR_FORK_KNOTS] = {0,   0,   0,   0.5, 0.5, 1,   1, 1,
-                                             0,   0,   0,   0,   0.5, 0.5, 0.5, 1, 1, 1, 1};
+const double fr_fork_knots[FR_FORK_KNOTS] = {0, 0, 0,   0.5, 0.5, 1, 1, 1, 0, 0,
+                                             0, 0, 0.5, 0.5, 0.5, 1, 1, 1, 1};
 
 /// A limb where its ring stands.
 typedef struct FrLimb {
@@ -30,9 +30,10 @@ typedef struct FrLimb {
 } FrLimb;
 
 typedef struct FrFork {
-    double at[3], along[3], aside[3], front[3]; ///< unit: of the stem, towards the branch, across both
-    double stem, branch;                        ///< radii
-    double cosine, sine;                        ///< of the angle from the stem to the branch
+    double at[3], along[3], aside[3],
+        front[3];        ///< unit: of the stem, towards the branch, across both
+    double stem, branch; ///< radii
+    double cosine, sine; ///< of the angle from the stem to the branch
     FrLimb limbs[LIMBS];
 } FrFork;
 
@@ -226,7 +227,9 @@ static void put_patch(const FrFork *fork, int from, int to, double (*net)[4]) {
     put_limb(limbs[0], unit, side[0], rows[0]);
     put_half(fork->at, front, apex, rows[3]);
     put_limb(limbs[1], unit, side[1], rows[6]);
-    double step = 0.3 * fmin(limbs[0]->reach, limbs[1]->reach);
+    // The same for all patches: they share what is beside the ends of the arcs.
+    double step = 0.3 * fmin(fork->limbs[BELOW].reach,
+                             fmin(fork->limbs[ABOVE].reach, fork->limbs[BRANCH].reach));
     put_beside((const double(*)[4])rows[0], inwards[0], inwards[0], limbs[0]->reach / 3.0, rows[1]);
     put_beside((const double(*)[4])rows[3], limbs[0]->away, back, step, rows[2]);
     put_beside((const double(*)[4])rows[3], limbs[1]->away, tangent, step, rows[4]);
