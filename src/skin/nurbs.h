@@ -69,8 +69,9 @@ typedef struct FrNurbsPath {
 
 /// The path of a tube: what it shares with its parent, its origin and the tips of its nodes, those
 /// left out that repeat the one before. Fewer than two points: nothing to sweep.
+/// `has_fork`: fork surfaces lead into it, so it shares nothing and leaves the fork straight on.
 void fr_nurbs_path(FrNurbsPath *path, const FrPlan *plan, const FrTube *tube,
-                   const FrNurbsParams *params);
+                   const FrNurbsParams *params, bool has_fork);
 void fr_nurbs_path_clear(FrNurbsPath *path);
 /// Appends a point unless it repeats the last one or is nowhere.
 void fr_nurbs_path_add(FrNurbsPath *path, const double at[3], double radius, double flatness,

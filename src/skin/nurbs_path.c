@@ -209,15 +209,16 @@ static void keep_corners(FrNurbsPath *path) {
 }
 
 void fr_nurbs_path(FrNurbsPath *path, const FrPlan *plan, const FrTube *tube,
-                   const FrNurbsParams *params) {
+                   const FrNurbsParams *params, bool has_fork) {
     const FrPlant *plant = plan->plant;
     const FrNodes *nodes = &plant->nodes;
     path->count = path->shared = 0;
     double at[3], radius = (double)fr_tube_base_radius(plan, tube);
     to_double(fr_tube_origin(plan, tube), at);
-    uint32_t bearer = tube->start == FR_START_BRANCH  ? plant->axes.bearer[tube->axis]
-                      : tube->start == FR_START_JOINT ? tube->from
-                                                      : FR_NONE;
+    uint32_t bearer = has_fork                         ? FR_NONE
+                      : tube->start == FR_START_BRANCH ? plant->axes.bearer[tube->axis]
+                      : tube->start == FR_START_JOINT  ? tube->from
+                                                       : FR_NONE;
     bool is_smooth = params->join == FR_JOIN_SMOOTH;
     bool goes_on =
         tube->start == FR_START_JOINT || (plant->axes.flags[tube->axis] & FR_CONTINUES) != 0;

@@ -9,9 +9,10 @@ static void measure_tubes(void *data, size_t begin, size_t end, int worker) {
     FrNurbsJob *job = data;
     FrNurbsPath *path = &job->paths[worker];
     for (size_t i = begin; i < end; i++) {
-        fr_nurbs_path(path, &job->plan, &g_array_index(job->plan.tubes, FrTube, i), job->params);
+        const FrTube *tube = &g_array_index(job->plan.tubes, FrTube, i);
+        job->tubes[i].has_fork = fr_fork_is_wanted(job, tube);
+        fr_nurbs_path(path, &job->plan, tube, job->params, job->tubes[i].has_fork);
         job->tubes[i].rows = fr_nurbs_rows(path, job->params);
-        job->tubes[i].has_fork = fr_fork_is_wanted(job, &g_array_index(job->plan.tubes, FrTube, i));
     }
 }
 
@@ -97,7 +98,7 @@ static void write_tube(const FrNurbsJob *job, uint32_t index, int worker) {
     bool has_caps = job->params->caps && section->is_closed;
     double(*all)[4] = skin->points + place->point, *knots = skin->knots + place->knot;
     double(*net)[4] = has_caps ? all + width : all;
-    fr_nurbs_path(path, plan, tube, job->params);
+    fr_nurbs_path(path, plan, tube, job->params, place->has_fork);
     fr_nurbs_sweep(path, section, plan, job->params, net, knots);
     FrNurbsPiece *piece = &skin->pieces[place->piece];
     *piece = (FrNurbsPiece){
