@@ -172,6 +172,11 @@ void studio_text_panel_show(StudioTextPanel *panel, StudioDocument *document, ui
     mark(panel, diags);
 }
 
+void studio_text_panel_forget(StudioTextPanel *panel) {
+    g_clear_handle_id(&panel->seal, g_source_remove);
+    panel->document = NULL;
+}
+
 void studio_text_panel_go(StudioTextPanel *panel, uint32_t offset) {
     GtkTextIter at;
     char *shown = text_of(panel);

@@ -15,5 +15,7 @@ GtkWidget *studio_text_panel_new(const char *language);
 /// user types changes the document.
 void studio_text_panel_show(StudioTextPanel *panel, StudioDocument *document, uint32_t element,
                             const FrDiags *diags);
+/// The document goes: nothing more is said to it.
+void studio_text_panel_forget(StudioTextPanel *panel);
 /// Puts the cursor at a byte.
 void studio_text_panel_go(StudioTextPanel *panel, uint32_t offset);

@@ -176,6 +176,10 @@ static gboolean on_autosave(gpointer data) {
 
 static void drop_document(StudioWindow *window) {
     g_clear_pointer(&window->recovery, studio_recovery_free);
+    if (window->document != NULL && window->settings != NULL) {
+        studio_text_panel_forget(window->text);
+        studio_text_panel_forget(window->lsystem);
+    }
     if (window->document != NULL) {
         studio_document_unwatch(window->document, on_document_changed, window);
         g_clear_pointer(&window->document, studio_document_free);
