@@ -133,6 +133,15 @@ FrStatus cli_lsystem_set_steps(CliSession *session, FrDocument *document, int64_
     return status;
 }
 
+static bool has_lsystem(const FrDocument *document) {
+    const GPtrArray *plants = fr_document_plants(document);
+    bool has = false;
+    for (guint i = 0; i < plants->len; i++) {
+        has |= ((const FrPlantDef *)g_ptr_array_index(plants, i))->kind == FR_PLANT_LSYSTEM;
+    }
+    return has;
+}
+
 FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document) {
     const CliOptions *options = session->options;
     FrStatus status = FR_OK;
@@ -141,7 +150,8 @@ FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document) {
         status = set_all(session, document, "view", path);
         g_free(path);
     }
-    if (options->steps >= 0 && status == FR_OK && !cli_growth_takes_steps(document)) {
+    bool is_for_them = has_lsystem(document) || !cli_growth_takes_steps(document);
+    if (options->steps >= 0 && status == FR_OK && is_for_them) {
         status = cli_lsystem_set_steps(session, document, options->steps);
     }
     if (status == FR_OK) {

@@ -212,6 +212,22 @@ static bool check_pictures_spared(const CliOptions *options, const FrDocument *d
     return are_spared;
 }
 
+/// What a document says of itself as it has been set; what it said before counts no more.
+static FrStatus tell_again(CliSession *session, const FrDocument *document) {
+    size_t size;
+    char *text = fr_document_text(document, &size);
+    FrSource *source = fr_source_new(fr_document_name(document), text, size);
+    fr_diags_free(session->context.diags);
+    session->context.diags = fr_diags_new();
+    FrDocument *again;
+    FrStatus status =
+        fr_document_parse(source, fr_document_folder(document), &session->context, &again);
+    fr_document_free(again);
+    fr_source_unref(source);
+    g_free(text);
+    return status;
+}
+
 FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **document) {
     double began = cli_now();
     FrStatus status = cli_is_lsystem(path) ? cli_lsystem_read(session, path, document)
@@ -225,6 +241,9 @@ FrStatus cli_session_read(CliSession *session, const char *path, FrDocument **do
         char *name = g_strndup(set, (gsize)(equals - set));
         status = fr_document_set(*document, name, equals + 1, &session->context);
         g_free(name);
+    }
+    if (status == FR_OK && session->options->sets->len > 0 && !cli_is_lsystem(path)) {
+        status = tell_again(session, *document);
     }
     if (status == FR_OK) {
         status = cli_lsystem_apply(session, *document);

@@ -74,11 +74,13 @@ static FrStatus derive_steps(CliSession *session, FrLderivation *derivation) {
 typedef struct Seen {
     const CliSession *session;
     uint64_t count; ///< modules of the last string
+    bool is_any;    ///< the scene has such a plant
 } Seen;
 
 static FrStatus see(void *user, FrLderivation *derivation, bool is_answered) {
     Seen *seen = user;
     const CliOptions *options = seen->session->options;
+    seen->is_any = true;
     seen->count = fr_lstring_count(fr_lderivation_string(derivation));
     if (options->prints_steps) {
         return is_answered ? FR_OK : print_step(seen->session, derivation);
@@ -89,18 +91,6 @@ static FrStatus see(void *user, FrLderivation *derivation, bool is_answered) {
         print_string(derivation, false);
     }
     return FR_OK;
-}
-
-/// An L-system that grows in its scene, in the light of everything there.
-static FrStatus derive_in_light(CliSession *session, const FrDocument *document,
-                                const FrPlantDef *plant) {
-    Seen seen = {session, 0};
-    FrStatus status =
-        fr_scene_derive(document, plant, session->options->seed, &session->context, see, &seen);
-    if (status == FR_OK && session->options->prints_count && !session->options->prints_steps) {
-        printf("%" G_GUINT64_FORMAT "\n", seen.count);
-    }
-    return status;
 }
 
 static FrStatus derive(CliSession *session, const FrPlantDef *plant) {
@@ -131,6 +121,24 @@ static FrStatus derive(CliSession *session, const FrPlantDef *plant) {
                     cli_now() - session->began);
     }
     fr_lderivation_free(derivation);
+    return status;
+}
+
+/// An L-system that grows in its scene, in the light of everything there.
+static FrStatus derive_in_light(CliSession *session, const FrDocument *document,
+                                const FrPlantDef *plant) {
+    Seen seen = {.session = session};
+    FrStatus status =
+        fr_scene_derive(document, plant, session->options->seed, &session->context, see, &seen);
+    if (status == FR_OK && !seen.is_any) {
+        fr_diags_add(session->context.diags, FR_WARNING, "unplaced-plant", plant->span,
+                     "the scene does not place '%s', so it is derived alone and without light",
+                     plant->id);
+        return derive(session, plant);
+    }
+    if (status == FR_OK && session->options->prints_count && !session->options->prints_steps) {
+        printf("%" G_GUINT64_FORMAT "\n", seen.count);
+    }
     return status;
 }
 

@@ -107,6 +107,7 @@ FrStatus fr_document_read(FrDocument *document, const FrContext *context) {
         fr_read_materials(&reader, root);
         fr_read_plants(&reader, root);
         fr_read_scenes(&reader, root);
+        fr_read_warn_grafts(&reader);
     }
     fr_reader_close(&reader);
     return reader.status;

@@ -128,7 +128,10 @@ static void check_nesting(FrReader *reader) {
     g_hash_table_unref(nesting.depths);
 }
 
-void fr_read_check_grafts(FrReader *reader) {
+/// A graft with the graph that it is in.
+typedef void (*GraftFn)(FrReader *reader, uint32_t graph, uint32_t node);
+
+static void for_each_graft(FrReader *reader, GraftFn look) {
     const FrElementId graft = FR_ELEMENT_COMPONENT + FR_COMPONENT_GRAFT;
     const FrXmlTree *tree = reader->tree;
     for (uint32_t plant = fr_read_first(reader, tree->root, FR_ELEMENT_PLANT); plant != FR_NONE;
@@ -136,12 +139,42 @@ void fr_read_check_grafts(FrReader *reader) {
         uint32_t graph = fr_read_first(reader, plant, FR_ELEMENT_PGRAPH);
         for (uint32_t node = graph == FR_NONE ? FR_NONE : fr_read_first(reader, graph, graft);
              node != FR_NONE; node = fr_read_next(reader, node, graft)) {
-            const FrPlantDef *grafted = find_grafted(reader, node);
-            if (grafted != NULL) {
-                check_defines(reader, node, grafted);
-                check_plain(reader, graph, node, grafted);
-            }
+            look(reader, graph, node);
         }
     }
+}
+
+static void check_graft(FrReader *reader, uint32_t graph, uint32_t node) {
+    const FrPlantDef *grafted = find_grafted(reader, node);
+    if (grafted != NULL) {
+        check_defines(reader, node, grafted);
+        check_plain(reader, graph, node, grafted);
+    }
+}
+
+void fr_read_check_grafts(FrReader *reader) {
+    for_each_graft(reader, check_graft);
     check_nesting(reader);
+}
+
+static void warn_graft(FrReader *reader, uint32_t graph, uint32_t node) {
+    (void)graph;
+    const FrXmlAttribute *attribute = fr_xml_attribute(reader->tree, node, "plant");
+    char *id = attribute == NULL ? NULL : fr_xml_decode(reader->tree, attribute->value, true);
+    const FrPlantDef *plant = find_plant(reader, id);
+    if (plant != NULL && plant->kind == FR_PLANT_LSYSTEM &&
+        fr_lsystem_is_open(fr_lmodel_system(plant->lsystem))) {
+        fr_diags_add(reader->diags, FR_WARNING, "unlit-graft",
+                     fr_xml_span(reader->tree, attribute->value),
+                     "grafted, the L-system '%s' does not see the light of the scene; where it has "
+                     "a <place> of its own it does",
+                     plant->id);
+    }
+    g_free(id);
+}
+
+void fr_read_warn_grafts(FrReader *reader) {
+    if (reader->status == FR_OK && reader->document->surroundings.light.is_given) {
+        for_each_graft(reader, warn_graft);
+    }
 }

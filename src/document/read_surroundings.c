@@ -5,14 +5,45 @@
 
 #include <math.h>
 
-/// A name that `--set` may call it by; none is as good. `names` are those of lamps and obstacles
-/// before.
-static void check_name(FrReader *reader, uint32_t node, const char *id, GHashTable *names) {
-    char *name = id != NULL && *id != '\0' ? fr_read_id(reader, node) : NULL;
-    if (name != NULL && !g_hash_table_add(names, name)) {
-        fr_read_error(reader, "duplicate-id", fr_read_value_place(reader, node, "id"),
-                      "there is a lamp or an obstacle '%s' already", id);
+/// Of the choices of <light estimator>.
+enum { ESTIMATE_NEAREST = 1 };
+
+/// Names that `--set` may call lamps and obstacles by, in the order of the document; none is as
+/// good.
+static void check_names(FrReader *reader, uint32_t scene) {
+    GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+    const FrXmlTree *tree = reader->tree;
+    for (uint32_t node = tree->nodes[scene].first; node != FR_NONE; node = tree->nodes[node].next) {
+        bool is_named = tree->nodes[node].kind == FR_XML_ELEMENT &&
+                        (fr_xml_equals(tree, tree->nodes[node].name, "lamp") ||
+                         fr_xml_equals(tree, tree->nodes[node].name, "obstacle"));
+        const FrXmlAttribute *id = is_named ? fr_xml_attribute(tree, node, "id") : NULL;
+        bool is_empty = id == NULL || id->value.begin == id->value.end;
+        char *name = is_empty ? NULL : fr_read_id(reader, node);
+        if (name != NULL && g_hash_table_contains(names, name)) {
+            fr_read_error(reader, "duplicate-id", id->value,
+                          "there is a lamp or an obstacle '%s' already", name);
+        }
+        if (name != NULL) {
+            g_hash_table_add(names, name);
+        }
     }
+    g_hash_table_unref(names);
+}
+
+/// Pictures that the file's own materials name must be there where these materials are used.
+static FrStatus check_pictures(const FrObstacle *obstacle, const FrContext *context) {
+    FrStatus status = FR_OK;
+    bool are_used = obstacle->mesh != NULL && obstacle->made_of == NULL;
+    for (uint32_t i = 0; are_used && i < obstacle->mesh->part_count && status == FR_OK; i++) {
+        FrMaterial *material = obstacle->mesh->parts[i].material;
+        const char *type;
+        if (material != NULL && fr_material_has(material, FR_MAP_COLOUR)) {
+            GBytes *file = fr_material_image_file(material, FR_MAP_COLOUR, context, &type, &status);
+            g_clear_pointer(&file, g_bytes_unref);
+        }
+    }
+    return status;
 }
 
 static void read_obstacle_mesh(FrReader *reader, uint32_t node, FrObstacle *obstacle) {
@@ -25,16 +56,18 @@ static void read_obstacle_mesh(FrReader *reader, uint32_t node, FrObstacle *obst
     FrSpan span = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "file"));
     obstacle->mesh =
         fr_mesh_file_load(reader->document->folder, obstacle->file, span, reader->context, &status);
+    if (status == FR_OK) {
+        status = check_pictures(obstacle, reader->context);
+    }
     fr_read_note(reader, status);
 }
 
-static void read_obstacle(FrReader *reader, uint32_t node, GHashTable *names) {
+static void read_obstacle(FrReader *reader, uint32_t node) {
     fr_read_check_children(reader, node, FR_ELEMENT_OBSTACLE);
     FrObstacle *obstacle = g_new0(FrObstacle, 1);
     fr_params_init(fr_obstacle_table(), obstacle);
     obstacle->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
     fr_read_attributes(reader, node, FR_ELEMENT_OBSTACLE, obstacle);
-    check_name(reader, node, obstacle->id, names);
     obstacle->made_of = fr_read_material(reader, node, "material", obstacle->material);
     if (obstacle->shape == FR_OBSTACLE_MESH) {
         read_obstacle_mesh(reader, node, obstacle);
@@ -68,13 +101,12 @@ static void read_terrain(FrReader *reader, uint32_t node) {
     g_free(path);
 }
 
-static void read_lamp(FrReader *reader, uint32_t node, GHashTable *names) {
+static void read_lamp(FrReader *reader, uint32_t node) {
     fr_read_check_children(reader, node, FR_ELEMENT_LAMP);
     FrLampParams *lamp = g_new0(FrLampParams, 1);
     fr_params_init(fr_lamp_table(), lamp);
     lamp->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
     fr_read_attributes(reader, node, FR_ELEMENT_LAMP, lamp);
-    check_name(reader, node, lamp->id, names);
     vec3s d = lamp->direction;
     if (d.x == 0 && d.y == 0 && d.z == 0) {
         fr_read_error(reader, "no-direction", fr_read_value_place(reader, node, "direction"),
@@ -130,6 +162,14 @@ static void read_light(FrReader *reader, uint32_t node) {
     light->photons_place = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "photons"));
     light->reference_place =
         fr_xml_span(reader->tree, fr_read_value_place(reader, node, "reference"));
+    bool is_nearest = light->by == FR_LIGHT_BY_DENSITY && light->estimator == ESTIMATE_NEAREST;
+    if (is_nearest && light->neighbours > light->photons) {
+        FrSpan place = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "neighbours"));
+        fr_diags_add(reader->diags, FR_WARNING, "few-photons", place,
+                     "%" G_GINT64_FORMAT " rays are wanted, and there are %" G_GINT64_FORMAT
+                     " photons",
+                     light->neighbours, light->photons);
+    }
 }
 
 /// Shadows fall from a sky; whoever hangs up lamps for plants that see only those is told.
@@ -146,10 +186,10 @@ static void warn_of_lamps(FrReader *reader) {
 }
 
 void fr_read_surroundings(FrReader *reader, uint32_t scene) {
-    GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+    check_names(reader, scene);
     for (uint32_t node = fr_read_first(reader, scene, FR_ELEMENT_OBSTACLE); node != FR_NONE;
          node = fr_read_next(reader, node, FR_ELEMENT_OBSTACLE)) {
-        read_obstacle(reader, node, names);
+        read_obstacle(reader, node);
     }
     uint32_t terrain = fr_read_first(reader, scene, FR_ELEMENT_TERRAIN);
     if (terrain != FR_NONE) {
@@ -157,9 +197,8 @@ void fr_read_surroundings(FrReader *reader, uint32_t scene) {
     }
     for (uint32_t node = fr_read_first(reader, scene, FR_ELEMENT_LAMP); node != FR_NONE;
          node = fr_read_next(reader, node, FR_ELEMENT_LAMP)) {
-        read_lamp(reader, node, names);
+        read_lamp(reader, node);
     }
-    g_hash_table_unref(names);
     uint32_t sun = fr_read_first(reader, scene, FR_ELEMENT_SUN);
     if (sun != FR_NONE) {
         read_sun(reader, sun, scene);

@@ -54,6 +54,8 @@ FrLmodel *fr_read_lsystem(FrReader *reader, uint32_t node);
 char *fr_read_define(FrReader *reader, uint32_t node, FrNumber *value);
 /// Reports grafts of plants that cannot be grafted, and numbers those do not know.
 void fr_read_check_grafts(FrReader *reader);
+/// What grafts do not see of the scene; after fr_read_scenes().
+void fr_read_warn_grafts(FrReader *reader);
 /// Reads the `<edits>` of a plant whose graph has been read.
 void fr_read_edits(FrReader *reader, uint32_t plant, FrPgraph *graph);
 /// Reads a `<skeleton>` and its table.

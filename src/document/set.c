@@ -14,6 +14,7 @@ typedef struct Target {
     FrElementId element;
     char *name;  ///< its id or name; "scene", "lsystem", "vary", "lamp-2"
     char *plant; ///< id of the plant around it, NULL
+    bool is_own; ///< the name is that of the element
 } Target;
 
 static void clear_target(void *data) {
@@ -22,12 +23,17 @@ static void clear_target(void *data) {
     g_free(target->plant);
 }
 
-/// What a path calls an element, or NULL.
-static char *name_of(const FrXmlTree *tree, uint32_t node, FrElementId element) {
+/// Elements that a path calls by what they are.
+static bool has_own_name(FrElementId element) {
     const FrElementSet named = SET(SCENE) | SET(SUN) | SET(LIGHT) | SET(TERRAIN) | SET(LSYSTEM) |
                                SET(RAMIFIED) | SET(NURBS) | SET(SPECIES) | SET(SLIDERS) |
                                SET(GROWTH) | SET(VARY);
-    if ((named >> element & 1) != 0) {
+    return (named >> element & 1) != 0;
+}
+
+/// What a path calls an element, or NULL.
+static char *name_of(const FrXmlTree *tree, uint32_t node, FrElementId element) {
+    if (has_own_name(element)) {
         return g_strdup(fr_element(element).name);
     }
     const FrXmlAttribute *attribute =
@@ -47,7 +53,7 @@ static void name_unnamed(const FrXmlTree *tree, GArray *targets, FrElementId ele
         count++;
         if (fr_xml_attribute(tree, node, "id") == NULL) {
             const char *kind = fr_element(element).name;
-            Target target = {node, element, g_strdup_printf("%s-%u", kind, count), NULL};
+            Target target = {node, element, g_strdup_printf("%s-%u", kind, count), NULL, false};
             g_array_append_val(targets, target);
             last = targets->len;
         }
@@ -77,7 +83,8 @@ static GArray *collect_targets(const FrXmlTree *tree) {
             continue;
         }
         bool is_within = plant != NULL && at->all.begin < plant_end;
-        Target target = {node, element, name, is_within ? g_strdup(plant) : NULL};
+        Target target = {node, element, name, is_within ? g_strdup(plant) : NULL,
+                         has_own_name(element)};
         g_array_append_val(targets, target);
         if (element == FR_ELEMENT_PLANT) {
             g_free(plant);
@@ -125,13 +132,19 @@ static void report_unknown(const GArray *targets, const char *name, FrDiags *dia
     g_ptr_array_unref(names);
 }
 
-/// The one element that `plant` (may be NULL) and `name` mean.
+/// The one element that `plant` (may be NULL) and `name` mean: what is of that name comes before
+/// what has been given it as an id.
 static const Target *find_target(const GArray *targets, const char *plant, const char *name,
                                  FrDiags *diags) {
     const Target *found = NULL;
+    bool is_own = false;
     for (guint i = 0; i < targets->len; i++) {
         const Target *target = &g_array_index(targets, Target, i);
-        if (!matches(target, plant, name)) {
+        is_own |= target->is_own && matches(target, plant, name);
+    }
+    for (guint i = 0; i < targets->len; i++) {
+        const Target *target = &g_array_index(targets, Target, i);
+        if (target->is_own != is_own || !matches(target, plant, name)) {
             continue;
         }
         if (found != NULL) {

@@ -11,6 +11,7 @@ enum {
     PHOTONS_AT_ONCE = 1024, ///< that one thread follows; no result depends on it
     CHUNKS_AT_ONCE = 32,    ///< whose rays are held before they are stored
     RAYS_AT_ONCE = 16384,   ///< that one thread looks through for cuts
+    RAYS_UNCOUNTED = 64,    ///< that one thread traces before it looks whether to stop
 };
 
 FrPaths *fr_paths_new(uint32_t photons, uint32_t most_bounces, uint64_t seed) {
@@ -51,11 +52,27 @@ typedef struct Job {
     const Cut *cuts;
     size_t begin, end; ///< photons, or cuts
     GArray **found;    ///< FrRay, one array for each chunk
+    uint64_t *made;    ///< rays of all chunks; exact once all are done
+    uint64_t most;     ///< such rays
+    const FrProgress *progress;
 } Job;
 
+/// Rays of one chunk and how many of them are in the sum of all.
+typedef struct Tally {
+    GArray *rays;
+    guint counted;
+} Tally;
+
+static bool may_go_on(const Job *job, Tally *tally) {
+    uint64_t more = tally->rays->len - tally->counted;
+    uint64_t made = __atomic_add_fetch(job->made, more, __ATOMIC_RELAXED);
+    tally->counted = tally->rays->len;
+    return made <= job->most && !fr_progress_is_cancelled(job->progress);
+}
+
 // From the ray's origin and direction to the end of the path. `known` is what the first ray meets,
-// or NULL.
-static void follow(const Job *job, FrRay ray, const FrSoupHit *known, GArray *found) {
+// or NULL. False: there is no use in going on.
+static bool follow(const Job *job, FrRay ray, const FrSoupHit *known, Tally *tally) {
     const FrSoup *soup = fr_surfaces_soup(job->surfaces);
     FrKey photon_key = fr_key_child(job->paths->key, ray.photon);
     for (;; known = NULL) {
@@ -64,9 +81,12 @@ static void follow(const Job *job, FrRay ray, const FrSoupHit *known, GArray *fo
         ray.distance = hit.distance;
         ray.triangle = hit.triangle;
         ray.is_back = hit.is_back;
-        g_array_append_val(found, ray);
+        g_array_append_val(tally->rays, ray);
+        if (tally->rays->len - tally->counted >= RAYS_UNCOUNTED && !may_go_on(job, tally)) {
+            return false;
+        }
         if (hit.triangle == FR_NONE || ray.bounce >= job->paths->most_bounces) {
-            return;
+            return true;
         }
         double sign = hit.is_back ? -1.0 : 1.0;
         double normal[3] = {sign * hit.normal[0], sign * hit.normal[1], sign * hit.normal[2]};
@@ -78,53 +98,60 @@ static void follow(const Job *job, FrRay ray, const FrSoupHit *known, GArray *fo
         ray.from = hit.triangle;
         const FrOptics *optics = fr_surfaces_optics(job->surfaces, hit.triangle, hit.is_back);
         if (!fr_scatter(optics, normal, fr_key_child(photon_key, ray.bounce), ray.direction)) {
-            return;
+            return true;
         }
     }
 }
 
-static void send_photon(const Job *job, uint32_t photon, GArray *found) {
+static bool send_photon(const Job *job, uint32_t photon, Tally *tally) {
     FrEmission emission = fr_emitters_emit(job->emitters, fr_key_child(job->paths->key, photon),
                                            photon, job->paths->photon_count);
     FrRay ray = {.photon = photon, .from = FR_NONE};
     memcpy(ray.origin, emission.origin, sizeof ray.origin);
     memcpy(ray.direction, emission.direction, sizeof ray.direction);
-    follow(job, ray, NULL, found);
+    return follow(job, ray, NULL, tally);
 }
 
 static void follow_chunks(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Job *job = data;
     for (size_t chunk = begin; chunk < end; chunk++) {
-        GArray *found = job->found[chunk];
-        g_array_set_size(found, 0);
+        Tally tally = {.rays = job->found[chunk]};
         size_t first = job->begin + chunk * PHOTONS_AT_ONCE;
-        for (size_t i = first; i < MIN(first + PHOTONS_AT_ONCE, job->end); i++) {
+        size_t last = MIN(first + PHOTONS_AT_ONCE, job->end);
+        bool goes_on = true;
+        for (size_t i = first; i < last && goes_on; i++) {
             if (job->cuts == NULL) {
-                send_photon(job, (uint32_t)i, found);
+                goes_on = send_photon(job, (uint32_t)i, &tally);
             } else {
                 const Cut *cut = &job->cuts[i];
-                follow(job, job->paths->rays[cut->slot], cut->is_known ? &cut->hit : NULL, found);
+                goes_on = follow(job, job->paths->rays[cut->slot], cut->is_known ? &cut->hit : NULL,
+                                 &tally);
             }
         }
+        may_go_on(job, &tally); // counts the rest
     }
 }
 
-static FrStatus reserve(FrPaths *paths, uint64_t more, const FrContext *context) {
-    uint64_t wanted = paths->count + more;
-    if (wanted <= paths->capacity) {
-        return FR_OK;
+static uint64_t most_rays(const FrContext *context) {
+    return MIN(context->limits.bytes / sizeof(FrRay), FR_NONE - 1ull);
+}
+
+// The number asked for is the least that is too large: how many rays there are when threads stop is
+// chance.
+static FrStatus refuse(const FrPaths *paths, const FrContext *context) {
+    uint64_t limit = MIN(context->limits.bytes, (FR_NONE - 1ull) * sizeof(FrRay));
+    return fr_limit_check((most_rays(context) + 1) * sizeof(FrRay), limit, "bytes", "the light",
+                          paths->span, context->diags);
+}
+
+static void reserve(FrPaths *paths, uint64_t more, const FrContext *context) {
+    uint64_t wanted = paths->count + more - MIN(more, paths->free_slots->len);
+    if (wanted > paths->capacity) {
+        uint64_t capacity = MAX(wanted, paths->capacity + paths->capacity / 2ull);
+        paths->capacity = (uint32_t)MIN(capacity, most_rays(context));
+        paths->rays = g_renew(FrRay, paths->rays, paths->capacity);
     }
-    uint64_t capacity = MAX(wanted, paths->capacity + paths->capacity / 2ull);
-    uint64_t most = MIN(context->limits.bytes / sizeof(FrRay), FR_NONE - 1ull);
-    FrStatus status = fr_limit_check(wanted * sizeof(FrRay), most * sizeof(FrRay), "bytes",
-                                     "the light", paths->span, context->diags);
-    if (status != FR_OK) {
-        return status;
-    }
-    paths->capacity = (uint32_t)MIN(capacity, most);
-    paths->rays = g_renew(FrRay, paths->rays, paths->capacity);
-    return FR_OK;
 }
 
 static void note_meeting(FrPaths *paths, const FrRay *ray, uint64_t change) {
@@ -174,7 +201,30 @@ static void store(FrPaths *paths, const GArray *found, const Cut *cut) {
     }
 }
 
-// Follows all photons of a job and stores their rays in the photons' order.
+// Follows some photons of a job and stores their rays in the photons' order.
+static FrStatus run_some(FrPaths *paths, Job *job, size_t chunks, const FrContext *context) {
+    uint64_t made = 0;
+    job->made = &made;
+    job->most = most_rays(context) - paths->count + paths->free_slots->len;
+    for (size_t i = 0; i < chunks; i++) {
+        g_array_set_size(job->found[i], 0);
+    }
+    fr_parallel_for(context->pool, chunks, 1, follow_chunks, job, context->progress);
+    paths->traced += made;
+    if (fr_progress_is_cancelled(context->progress)) {
+        return FR_CANCELLED;
+    }
+    if (made > job->most) {
+        return refuse(paths, context);
+    }
+    reserve(paths, made, context);
+    for (size_t i = 0; i < chunks; i++) {
+        const Cut *cuts = job->cuts != NULL ? job->cuts + job->begin + i * PHOTONS_AT_ONCE : NULL;
+        store(paths, job->found[i], cuts);
+    }
+    return FR_OK;
+}
+
 static FrStatus run(FrPaths *paths, Job *job, const FrContext *context) {
     GArray *found[CHUNKS_AT_ONCE];
     for (int i = 0; i < CHUNKS_AT_ONCE; i++) {
@@ -183,25 +233,12 @@ static FrStatus run(FrPaths *paths, Job *job, const FrContext *context) {
     size_t count = job->end, step = (size_t)CHUNKS_AT_ONCE * PHOTONS_AT_ONCE;
     FrStatus status = FR_OK;
     job->found = found;
+    job->progress = context->progress;
     for (size_t begin = 0; begin < count && status == FR_OK; begin += step) {
         job->begin = begin;
         job->end = MIN(begin + step, count);
         size_t chunks = (job->end - begin + PHOTONS_AT_ONCE - 1) / PHOTONS_AT_ONCE;
-        fr_parallel_for(context->pool, chunks, 1, follow_chunks, job, context->progress);
-        if (fr_progress_is_cancelled(context->progress)) {
-            status = FR_CANCELLED;
-        }
-        const Cut *cuts = job->cuts != NULL ? job->cuts + begin : NULL;
-        for (size_t i = 0; i < chunks && status == FR_OK; i++) {
-            paths->traced += found[i]->len;
-            status = reserve(paths, found[i]->len, context);
-            if (status == FR_OK) {
-                store(paths, found[i], cuts);
-                if (cuts != NULL) {
-                    cuts += PHOTONS_AT_ONCE;
-                }
-            }
-        }
+        status = run_some(paths, job, chunks, context);
         fr_progress_report(context->progress, "light", (double)job->end / (double)count);
     }
     for (int i = 0; i < CHUNKS_AT_ONCE; i++) {

@@ -18,6 +18,7 @@
 typedef struct Folder {
     char *path, *first;
     uint64_t left; ///< bytes
+    char *missing; ///< what was looked for and is not there; NULL
 } Folder;
 
 /// A file in memory.
@@ -89,6 +90,11 @@ static struct aiFile *folder_open(struct aiFileIO *io, const char *name, const c
         g_clear_pointer(&data, g_free);
     }
     g_free(path);
+    if (folder->missing == NULL && data == NULL) {
+        folder->missing = g_path_get_basename(name);
+    } else if (data != NULL) {
+        g_clear_pointer(&folder->missing, g_free); // another name for the same
+    }
     if (data == NULL) {
         return NULL;
     }
@@ -128,13 +134,19 @@ static GBytes *embedded_picture(const struct aiScene *scene, const char *name) {
     return texture->mHeight == 0 ? g_bytes_new(texture->pcData, texture->mWidth) : NULL;
 }
 
-static void read_colour(const struct aiMaterial *from, FrMaterialParams *params) {
+static void read_colour(const struct aiMaterial *from, const char *stem, FrSpan span,
+                        FrDiags *diags, FrMaterialParams *params) {
     struct aiColor4D colour;
     if (aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &colour) != aiReturn_SUCCESS &&
         aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &colour) != aiReturn_SUCCESS) {
         return;
     }
     const float linear[3] = {colour.r, colour.g, colour.b};
+    if (!isfinite(colour.r) || !isfinite(colour.g) || !isfinite(colour.b)) {
+        fr_diags_add(diags, FR_WARNING, "wrong-colour", span,
+                     "'%s' has a material whose colour is not three numbers", stem);
+        return;
+    }
     for (int k = 0; k < 3; k++) {
         // Files have it linear, materials as sRGB.
         float c = linear[k] > 0 ? fminf(linear[k], 1) : 0;
@@ -143,11 +155,11 @@ static void read_colour(const struct aiMaterial *from, FrMaterialParams *params)
 }
 
 static FrMaterial *read_material(const struct aiScene *scene, uint32_t index, const char *folder,
-                                 const char *stem, FrSpan span) {
+                                 const char *stem, FrSpan span, FrDiags *diags) {
     const struct aiMaterial *from = scene->mMaterials[index];
     FrMaterialParams params;
     fr_params_init(fr_material_table(), &params);
-    read_colour(from, &params);
+    read_colour(from, stem, span, diags, &params);
     float roughness;
     if (aiGetMaterialFloatArray(from, AI_MATKEY_ROUGHNESS_FACTOR, &roughness, NULL) ==
             aiReturn_SUCCESS &&
@@ -253,7 +265,7 @@ static FrMeshFile *take_scene(const struct aiScene *scene, const char *path, con
         }
         part.index_count = file->index_count - part.first_index;
         if (part.index_count > 0) {
-            part.material = read_material(scene, material, folder, stem, span);
+            part.material = read_material(scene, material, folder, stem, span, context->diags);
             file->parts[file->part_count++] = part;
         }
     }
@@ -290,6 +302,10 @@ FrMeshFile *fr_mesh_file_import(const char *path, const char *name, FrSpan span,
     if (scene != NULL) {
         file = take_scene(scene, path, name, span, context, status);
         aiReleaseImport(scene);
+        if (folder.missing != NULL) {
+            fr_diags_add(context->diags, FR_WARNING, "missing-file", span,
+                         "'%s' names the file '%.200s', which is not there", name, folder.missing);
+        }
     } else {
         char *why = g_utf8_make_valid(aiGetErrorString(), -1);
         fr_diags_add(context->diags, FR_ERROR, "wrong-mesh", span, "'%s' cannot be read: %.200s",
@@ -299,5 +315,6 @@ FrMeshFile *fr_mesh_file_import(const char *path, const char *name, FrSpan span,
     }
     g_free(folder.path);
     g_free(folder.first);
+    g_free(folder.missing);
     return file;
 }

@@ -108,6 +108,51 @@ static void test_set(void) {
                  "duplicate-id");
 }
 
+/// Whatever is read first, the later one in the document is the one too many.
+static void test_duplicate(void) {
+    static const char text[] = SCENE("<lamp id='desk'/><obstacle id='desk'/>");
+    Parsed parsed = parse(text);
+    g_assert_cmpuint(fr_diags_count(parsed.diags), ==, 1);
+    const FrDiag *diag = fr_diags_get(parsed.diags, 0);
+    g_assert_cmpstr(diag->code, ==, "duplicate-id");
+    const char *second = strstr(text, "<obstacle id='desk'");
+    g_assert_cmpuint(diag->span.begin, ==, (size_t)(second - text) + strlen("<obstacle id='"));
+    forget(&parsed);
+}
+
+/// A lamp that is called 'light' does not hide the light.
+static void test_set_own_name(void) {
+    Parsed parsed = parse(SCENE("<light/><lamp id='light'/>"));
+    FrContext context = fr_context_default();
+    context.diags = parsed.diags;
+    g_assert_cmpint(fr_document_set(parsed.document, "light.photons", "7", &context), ==, FR_OK);
+    g_assert_cmpint(fr_document_surroundings(parsed.document)->light.photons, ==, 7);
+    forget(&parsed);
+}
+
+/// The nearest 50 of 20 rays are all there are, wherever one looks.
+static void test_few_photons(void) {
+    static const struct {
+        const char *text;
+        bool is_told;
+    } rows[] = {
+        {SCENE("<light by='density' estimator='nearest' photons='20'/>"), true},
+        {SCENE("<light by='density' estimator='nearest' photons='50'/>"), false},
+        {SCENE("<light by='density' estimator='fixed' photons='20'/>"), false},
+        {SCENE("<light by='views' estimator='nearest' photons='20'/>"), false},
+    };
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        Parsed parsed = parse(rows[i].text);
+        g_assert_cmpint(parsed.status, ==, FR_OK);
+        bool is_told = false;
+        for (size_t k = 0; k < fr_diags_count(parsed.diags); k++) {
+            is_told |= strcmp(fr_diags_get(parsed.diags, k)->code, "few-photons") == 0;
+        }
+        g_assert_cmpint(is_told, ==, rows[i].is_told);
+        forget(&parsed);
+    }
+}
+
 /// Shadow voxels do not see lamps.
 static void test_unseen(void) {
     Parsed parsed = parse(SCENE("<light by='shadows'/><lamp/><lamp power='0'/>"));
@@ -130,6 +175,11 @@ int main(int argc, char **argv) {
     g_test_add_func("/document/surroundings/the sun stands where it was published to",
                     test_sun_published);
     g_test_add_func("/document/surroundings/lamps and obstacles have paths to be set by", test_set);
+    g_test_add_func("/document/surroundings/an id twice is told at the second", test_duplicate);
+    g_test_add_func("/document/surroundings/the light is set where a lamp is called so",
+                    test_set_own_name);
+    g_test_add_func("/document/surroundings/more neighbours than photons are told of",
+                    test_few_photons);
     g_test_add_func("/document/surroundings/who senses shadows is told of lamps", test_unseen);
     g_test_add_func("/document/surroundings/what is wrong has its code", test_wrong);
     return g_test_run();

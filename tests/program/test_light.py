@@ -60,7 +60,95 @@ def lamps_can_be_set(folder):
     assert not list(folder.iterdir())
 
 
+OPEN = """<frond version="1">
+  <plant id="a"><lsystem unit="0.05" steps="4">
+w : I(?)A
+p1 : A -> F(3)R(?,8)I(?)A
+p2 : R(r,p) -> \\(r)&amp;(p)/(r)
+  </lsystem></plant>
+  %s
+</frond>
+"""
+
+
+def document(folder, rest):
+    path = folder / "a.frond"
+    path.write_text(OPEN % rest)
+    return path
+
+
+def steps_are_for_lsystems_beside_species(folder):
+    for light in ("", "<light by='views'/>"):
+        path = document(folder, f"<plant id='tree'><species/></plant><scene>{light}<place plant='a'/></scene>")
+        strings = [tap.run("derive", path, "--steps", n).stdout.splitlines() for n in (1, 3)]
+        assert [lines[-1].split(":")[0].rstrip("'") for lines in strings] == ["1", "3"], strings
+
+
+def what_is_not_placed_is_derived_alone(folder):
+    path = document(folder, "<plant id='b'><lsystem>w : A</lsystem></plant><scene><light/><place plant='b'/></scene>")
+    did = tap.run("derive", path, "--plant", "a", "--steps", 2)
+    assert did.stdout.splitlines()[-1].startswith("2"), did.stdout
+    assert "a.frond:" in did.stderr and "[unplaced-plant]" in did.stderr, did.stderr
+
+
+def grafts_in_the_dark_are_told(folder):
+    graft = "<plant id='h'><pgraph><graft id='g' plant='a'/></pgraph></plant><scene>%s<place plant='h'/></scene>"
+    assert "unlit-graft" not in tap.run("check", document(folder, graft % "")).stderr
+    error = tap.run("check", document(folder, graft % "<light/>")).stderr
+    assert "a.frond:7:" in error and "[unlit-graft]" in error, error
+
+
+def what_is_set_is_checked_as_a_whole(folder):
+    path = document(folder, "<scene><light by='views'/><lamp/><place plant='a'/></scene>")
+    assert "unseen-lamp" not in tap.run("check", path).stderr
+    assert "[unseen-lamp]" in tap.run("check", path, "--set", "light.by=shadows").stderr
+    path = document(folder, "<scene><light by='shadows'/><lamp/><place plant='a'/></scene>")
+    assert "[unseen-lamp]" in tap.run("check", path).stderr
+    assert "unseen-lamp" not in tap.run("check", path, "--set", "light.by=views").stderr
+
+
+WHITE = """<material id="m" colour="#ffffff"/><scene ground="no" sun-strength="0" sky-strength="0">
+<light by="density" photons="1000" bounces="60000"/><lamp at="0.5,0,0.9"/>
+<obstacle at="0,0,-0.1" size="2.2,2.2,0.1" material="m"/><obstacle at="0,0,2" size="2.2,2.2,0.1" material="m"/>
+<obstacle at="1.05,0,0" size="0.1,2.2,2" material="m"/><obstacle at="-1.05,0,0" size="0.1,2.2,2" material="m"/>
+<obstacle at="0,1.05,0" size="2.2,0.1,2" material="m"/><obstacle at="0,-1.05,0" size="2.2,0.1,2" material="m"/>
+<place plant="a" at="-0.3,0,1"/></scene>"""
+
+
+def long_paths_stop_at_the_limit(folder):
+    path = document(folder, WHITE)
+    told = set()
+    for threads in (1, 2):
+        told.add(tap.run("build", path, "-o", folder / "a.glb", "--limit", "bytes=10000000", "--threads", threads, status=3).stderr)
+    assert len(told) == 1, told
+    assert "is 10000000" in told.pop()
+
+
+TRIANGLE = "mtllib %s\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"
+
+
+def what_a_mesh_names_must_be_there(folder):
+    path = document(folder, "<scene><obstacle shape='mesh' file='t.obj'/><place plant='a'/></scene>")
+    (folder / "t.obj").write_text(TRIANGLE % "none.mtl")
+    error = tap.run("check", path).stderr
+    assert "a.frond:7:" in error and "'none.mtl'" in error and "[missing-file]" in error, error
+    (folder / "t.obj").write_text(TRIANGLE % "u.mtl")
+    (folder / "u.mtl").write_text("newmtl m\nKd 1 1 1\n")
+    assert tap.run("check", path).stderr == ""
+    (folder / "u.mtl").write_text("newmtl m\nKd nan 1 1\n")
+    assert "[wrong-colour]" in tap.run("check", path).stderr
+    (folder / "u.mtl").write_text("newmtl m\nKd 1 1 1\nmap_Kd none.png\n")
+    error = tap.run("check", path, status=1).stderr
+    assert "a.frond:7:" in error and "[picture-missing]" in error, error
+
+
 TESTS = [
+    ("/program/light/what a mesh names must be there", what_a_mesh_names_must_be_there),
+    ("/program/light/--steps is for L-systems beside species too", steps_are_for_lsystems_beside_species),
+    ("/program/light/what is not placed is derived alone", what_is_not_placed_is_derived_alone),
+    ("/program/light/grafts that see no light are told of", grafts_in_the_dark_are_told),
+    ("/program/light/what is set is checked as a whole", what_is_set_is_checked_as_a_whole),
+    ("/program/light/long paths stop at the limit", long_paths_stop_at_the_limit),
     ("/program/light/--stats tells photons, rays and every step", stats_tell_the_light),
     ("/program/light/derive uses the light of the scene", derive_uses_the_light),
     ("/program/light/check does not grow what grows in the light", check_does_not_grow),
