@@ -149,7 +149,7 @@ static void reserve(FrPaths *paths, uint64_t more, const FrContext *context) {
     uint64_t wanted = paths->count + more - MIN(more, paths->free_slots->len);
     if (wanted > paths->capacity) {
         uint64_t capacity = MAX(wanted, paths->capacity + paths->capacity / 2ull);
-        paths->capacity = (uint32_t)MIN(capacity, most_rays(context));
+        paths->capacity = (uint32_t)MIN(capacity, MAX(wanted, most_rays(context)));
         paths->rays = g_renew(FrRay, paths->rays, paths->capacity);
     }
 }
@@ -205,7 +205,8 @@ static void store(FrPaths *paths, const GArray *found, const Cut *cut) {
 static FrStatus run_some(FrPaths *paths, Job *job, size_t chunks, const FrContext *context) {
     uint64_t made = 0;
     job->made = &made;
-    job->most = most_rays(context) - paths->count + paths->free_slots->len;
+    uint64_t most = most_rays(context), there = fr_paths_ray_count(paths);
+    job->most = most - MIN(most, there);
     for (size_t i = 0; i < chunks; i++) {
         g_array_set_size(job->found[i], 0);
     }

@@ -190,6 +190,23 @@ static void test_after_error(void) {
     fr_diags_free(context.diags);
 }
 
+/// Fewer bytes than the rays take already.
+static void test_narrowed(void) {
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    TestScene *test = room();
+    FrDensityParams params = few();
+    FrLight *light = light_of(&params, test, &context);
+    FrContext narrow = context;
+    narrow.limits.bytes = fr_light_stats(light).rays * 6;
+    add_leaves(test, 20, 3, CORNER, MIDDLE, 0.2f, alike(0.1f, 0, 0.2f, 0));
+    g_assert_cmpint(fr_light_set_scene(light, test_scene(test), &narrow), ==, FR_ERR_LIMIT);
+    step(light, test, &context);
+    fr_light_free(light);
+    test_scene_free(test);
+    fr_diags_free(context.diags);
+}
+
 static void test_threads(void) {
     static const int threads[4] = {1, 2, 3, 8};
     Knowledge known[4];
@@ -217,6 +234,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/light/update/surfaces in one place do not depend on order", test_coincident);
     g_test_add_func("/light/update/other lamps send all photons anew", test_lamps);
     g_test_add_func("/light/update/after an error everything is made anew", test_after_error);
+    g_test_add_func("/light/update/a limit that became narrower holds", test_narrowed);
     g_test_add_func("/light/update/one, two, three and eight threads agree", test_threads);
     return g_test_run();
 }

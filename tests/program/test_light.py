@@ -1,6 +1,8 @@
 """Plants that grow in the light: what derive, check and --stats tell of them."""
 
 import json
+import signal
+import subprocess
 import sys
 import time
 
@@ -142,7 +144,20 @@ def what_a_mesh_names_must_be_there(folder):
     assert "a.frond:7:" in error and "[picture-missing]" in error, error
 
 
+def long_paths_stop_at_once(folder):
+    path = document(folder, WHITE.replace('photons="1000"', 'photons="400"'))
+    command = [tap.PROGRAM, "build", path, "-o", folder / "a.glb", "--limit", "bytes=4000000000", "--threads", "1"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE) as process:
+        time.sleep(0.4)
+        process.send_signal(signal.SIGINT)
+        began = time.monotonic()
+        process.communicate()
+        assert process.returncode == -signal.SIGINT, process.returncode
+        assert time.monotonic() - began < 2, "it goes on"
+
+
 TESTS = [
+    ("/program/light/long paths stop at once", long_paths_stop_at_once),
     ("/program/light/what a mesh names must be there", what_a_mesh_names_must_be_there),
     ("/program/light/--steps is for L-systems beside species too", steps_are_for_lsystems_beside_species),
     ("/program/light/what is not placed is derived alone", what_is_not_placed_is_derived_alone),
