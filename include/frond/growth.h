@@ -61,6 +61,7 @@ typedef struct FrGrowthObstacle {
     uint32_t index_count;
     bool is_ground; ///< the first internode of a plant grows through it
     bool is_clear;  ///< it takes no light
+    FrSpan span;    ///< where a document asks for it, for diagnostics; borrowed
 } FrGrowthObstacle;
 
 /// Everything that a growth stands on. Copied; what it points to is copied too where it is not

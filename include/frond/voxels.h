@@ -53,7 +53,8 @@ typedef struct FrVoxels {
 
 FR_API FrVoxels *fr_voxels_new(const double origin[3], double cell);
 FR_API void fr_voxels_free(FrVoxels *voxels);
-/// The brick of a cell, made if there is none. Not thread-safe.
+/// The brick of a cell, made if there is none; NULL where the machine has no memory for it. Not
+/// thread-safe.
 FR_API FrBrick *fr_voxels_make(FrVoxels *voxels, FrCell cell);
 /// The same with room for owners and claims.
 FR_API FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell);
@@ -62,14 +63,28 @@ FR_API FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell);
 /// sum of how far they lie apart along each axis below FR_WALK_CELLS cells.
 FR_API uint32_t fr_voxels_walk(const FrVoxels *voxels, const double from[3], const double to[3],
                                FrCell *cells);
-/// Makes every cell solid that a triangle touches. Parts outside are left out.
-FR_API void fr_voxels_add_triangles(FrVoxels *voxels, const vec3s *positions,
-                                    const uint32_t *indices, uint32_t index_count, bool is_ground);
-/// Makes every cell solid whose middle a closed surface of triangles encloses, below `end`. False,
-/// and nothing done, if that took more than about `most` bytes.
-FR_API FR_MUST_USE bool fr_voxels_fill(FrVoxels *voxels, const vec3s *positions,
-                                       const uint32_t *indices, uint32_t index_count,
-                                       bool is_ground, const double end[3], uint64_t most);
+
+/// Triangles that become solid.
+typedef struct FrVoxelSurface {
+    const vec3s *positions;
+    const uint32_t *indices; ///< three a triangle
+    uint32_t index_count;
+    bool is_ground;
+    FrSpan span; ///< where a document asks for them
+} FrVoxelSurface;
+
+/// FR_CANCELLED, or FR_ERR_LIMIT with a diagnostic if all voxels and `more` bytes are above
+/// FrLimits.bytes.
+FR_API FR_MUST_USE FrStatus fr_voxels_check(const FrVoxels *voxels, uint64_t more, FrSpan span,
+                                            const FrContext *context);
+/// Makes every cell solid that a triangle touches. Parts outside are left out, and those more than
+/// a brick beyond `end`. Some may be solid already where it fails.
+FR_API FR_MUST_USE FrStatus fr_voxels_add_triangles(FrVoxels *voxels, const FrVoxelSurface *surface,
+                                                    const double end[3], const FrContext *context);
+/// Makes every cell solid whose middle a closed surface of triangles encloses, below `end`. Where
+/// that took too many bytes, nothing is done.
+FR_API FR_MUST_USE FrStatus fr_voxels_fill(FrVoxels *voxels, const FrVoxelSurface *surface,
+                                           const double end[3], const FrContext *context);
 /// Makes all obstacles go, and keeps what is owned.
 FR_API void fr_voxels_clear_solid(FrVoxels *voxels);
 /// Sets the bits of a brick whose voxels have been written.

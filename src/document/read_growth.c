@@ -3,6 +3,7 @@
 
 #include "frond/voxels.h"
 
+#include <math.h>
 #include <string.h>
 
 #define FR_PARAM_STRUCT FrParticlesDef
@@ -77,6 +78,30 @@ static void read_envelope(FrReader *reader, uint32_t node, FrSpeciesDef *species
     }
 }
 
+/// An outline has a height, and no radius below 0.
+static void check_envelope(FrReader *reader, uint32_t node, const FrPoints *outline) {
+    double low = INFINITY, high = -INFINITY, least = INFINITY;
+    for (size_t i = 0; i < outline->count; i++) {
+        least = fmin(least, outline->at[i][0]);
+        low = fmin(low, outline->at[i][1]);
+        high = fmax(high, outline->at[i][1]);
+    }
+    if (outline->count > 0 && !(least >= 0 && high > low)) {
+        fr_read_error(reader, "bad-envelope", fr_read_value_place(reader, node, "envelope"),
+                      "an envelope is two or more points radius,height: no radius below 0, and not "
+                      "all at one height");
+    }
+}
+
+/// The free space has a middle cell.
+static void check_box(FrReader *reader, uint32_t node, const FrSpeciesParams *params) {
+    if (params->box % 2 == 0) {
+        fr_read_error(reader, "even-box", fr_read_value_place(reader, node, "box"),
+                      "the free space around a tip is an odd number of cells wide, not %d",
+                      (int)params->box);
+    }
+}
+
 FrSpeciesDef *fr_read_species(FrReader *reader, uint32_t node) {
     fr_read_check_children(reader, node, FR_ELEMENT_SPECIES);
     FrSpeciesDef *species = g_new0(FrSpeciesDef, 1);
@@ -85,6 +110,8 @@ FrSpeciesDef *fr_read_species(FrReader *reader, uint32_t node) {
     fr_params_init(fr_species_sliders_table(), &species->sliders);
     read_preset(reader, node, species);
     fr_read_attributes(reader, node, FR_ELEMENT_SPECIES, &species->params);
+    check_envelope(reader, node, &species->params.envelope);
+    check_box(reader, node, &species->params);
     species->bark = fr_read_material(reader, node, "bark", species->params.bark);
     species->leaf = fr_read_material(reader, node, "leaf", species->params.leaf);
     read_orders(reader, node, species);
@@ -136,10 +163,16 @@ static void check_growth(FrReader *reader, uint32_t node, const FrGrowthParams *
     for (int axis = 0; axis < 3; axis++) {
         double size = (double)params->max.raw[axis] - (double)params->min.raw[axis];
         bool is_wide = params->cell > 0 && size / params->cell >= FR_VOXELS_WIDTH;
-        if (!(size > 0) || is_wide) {
+        if (!(size > 0)) {
             fr_read_error(reader, "arena-cells", fr_read_value_place(reader, node, "max"),
-                          "the arena is %g m wide, but must be above 0 and below %d cells of %g m",
-                          size, FR_VOXELS_WIDTH, params->cell);
+                          "along %c the arena's max %g is not above its min %g", "xyz"[axis],
+                          (double)params -> max.raw[axis], (double)params->min.raw[axis]);
+            return;
+        }
+        if (is_wide) {
+            fr_read_error(reader, "arena-cells", fr_read_value_place(reader, node, "max"),
+                          "the arena is %g m wide, but must be below %d cells of %g m", size,
+                          FR_VOXELS_WIDTH, params->cell);
             return;
         }
     }

@@ -82,8 +82,8 @@ static GArray *collect_targets(const FrXmlTree *tree) {
         if (name == NULL) {
             continue;
         }
-        bool is_within = plant != NULL && at->all.begin < plant_end;
-        Target target = {node, element, name, is_within ? g_strdup(plant) : NULL,
+        bool is_inside = plant != NULL && at->all.begin < plant_end;
+        Target target = {node, element, name, is_inside ? g_strdup(plant) : NULL,
                          has_own_name(element)};
         g_array_append_val(targets, target);
         if (element == FR_ELEMENT_PLANT) {
@@ -98,9 +98,18 @@ static GArray *collect_targets(const FrXmlTree *tree) {
     return targets;
 }
 
+/// True if an element stands in a plant so called, or in the scene.
+static bool is_within(const Target *target, const char *around) {
+    const FrElementSet of_scene =
+        SET(GROWTH) | SET(SUN) | SET(LIGHT) | SET(TERRAIN) | SET(LAMP) | SET(OBSTACLE);
+    if (target->plant != NULL) {
+        return strcmp(target->plant, around) == 0;
+    }
+    return (of_scene >> target->element & 1) != 0 && strcmp(around, "scene") == 0;
+}
+
 static bool matches(const Target *target, const char *plant, const char *name) {
-    return strcmp(target->name, name) == 0 &&
-           (plant == NULL || (target->plant != NULL && strcmp(target->plant, plant) == 0));
+    return strcmp(target->name, name) == 0 && (plant == NULL || is_within(target, plant));
 }
 
 /// `plant.component` or `component` for messages.
@@ -109,15 +118,20 @@ static char *path_of(const Target *target) {
                                  : g_strdup_printf("%s.%s", target->plant, target->name);
 }
 
-static void report_unknown(const GArray *targets, const char *name, FrDiags *diags) {
-    GPtrArray *names = g_ptr_array_new();
+/// `plant` may be NULL.
+static void report_unknown(const GArray *targets, const char *plant, const char *asked,
+                           FrDiags *diags) {
+    GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
+    char *name = plant == NULL ? g_strdup(asked) : g_strdup_printf("%s.%s", plant, asked);
     GString *listed = g_string_new(NULL);
     for (guint i = 0; i < targets->len; i++) {
         const Target *target = &g_array_index(targets, Target, i);
-        g_ptr_array_add(names, target->name);
+        char *path = path_of(target);
         if (i < LISTED_PATHS) {
-            g_string_append_printf(listed, "%s%s", i == 0 ? "" : ", ", target->name);
+            g_string_append_printf(listed, "%s%s", i == 0 ? "" : ", ", path);
         }
+        g_ptr_array_add(names, plant == NULL ? g_strdup(target->name) : g_strdup(path));
+        g_free(path);
     }
     g_string_append(listed, targets->len > LISTED_PATHS ? ", …" : "");
     const char *near = fr_nearest_name(name, (const char *const *)names->pdata, names->len);
@@ -130,6 +144,7 @@ static void report_unknown(const GArray *targets, const char *name, FrDiags *dia
     }
     g_string_free(listed, TRUE);
     g_ptr_array_unref(names);
+    g_free(name);
 }
 
 /// The one element that `plant` (may be NULL) and `name` mean: what is of that name comes before
@@ -158,7 +173,7 @@ static const Target *find_target(const GArray *targets, const char *plant, const
         found = target;
     }
     if (found == NULL) {
-        report_unknown(targets, name, diags);
+        report_unknown(targets, plant, name, diags);
     }
     return found;
 }

@@ -112,6 +112,7 @@ typedef struct FrGrownObstacle {
     uint32_t *indices;
     uint32_t index_count;
     bool is_ground, is_clear;
+    FrSpan span;
 } FrGrownObstacle;
 
 /// A live bud where it stands, gathered from all plants for a phase of the step.
@@ -202,7 +203,8 @@ bool fr_growth_take_particles(FrGrowth *growth, FrBytesReader *reader);
 /// The particles all over the arena that the parameters ask for.
 FrStatus fr_growth_strew_particles(FrGrowth *growth, const FrContext *context);
 /// The particles that a new plant's envelope is filled with.
-void fr_growth_fill_envelope(const FrGrowth *growth, const FrGrownPlant *plant, GArray *particles);
+FrStatus fr_growth_fill_envelope(const FrGrowth *growth, const FrGrownPlant *plant,
+                                 GArray *particles, const FrContext *context);
 /// Kills what the new nodes of this step have reached.
 void fr_growth_reach_particles(FrGrowth *growth);
 typedef struct FrColony FrColony;

@@ -98,22 +98,17 @@ FrStatus fr_growth_stand_obstacles(FrGrowth *growth, const FrContext *context) {
     for (int axis = 0; axis < 3; axis++) {
         end[axis] = (double)growth->params.max.raw[axis];
     }
-    for (uint32_t i = 0; i < growth->obstacle_count; i++) {
+    FrStatus status = FR_OK;
+    for (uint32_t i = 0; i < growth->obstacle_count && status == FR_OK; i++) {
         const FrGrownObstacle *obstacle = &growth->obstacles[i];
-        fr_voxels_add_triangles(growth->voxels, obstacle->positions, obstacle->indices,
-                                obstacle->index_count, obstacle->is_ground);
-        if (!fr_voxels_fill(growth->voxels, obstacle->positions, obstacle->indices,
-                            obstacle->index_count, obstacle->is_ground, end,
-                            context->limits.bytes)) {
-            fr_diags_add(
-                context->diags, FR_ERROR, "limit-bytes", (FrSpan){0},
-                "an obstacle fills more of the arena than the limit bytes=%" G_GUINT64_FORMAT
-                " allows; make `cell` larger",
-                context->limits.bytes);
-            return FR_ERR_LIMIT;
+        const FrVoxelSurface surface = {obstacle->positions, obstacle->indices,
+                                        obstacle->index_count, obstacle->is_ground, obstacle->span};
+        status = fr_voxels_add_triangles(growth->voxels, &surface, end, context);
+        if (status == FR_OK) {
+            status = fr_voxels_fill(growth->voxels, &surface, end, context);
         }
     }
-    return FR_OK;
+    return status;
 }
 
 static void take_obstacles(FrGrowth *growth, const FrGrowthSetup *setup) {
@@ -127,7 +122,8 @@ static void take_obstacles(FrGrowth *growth, const FrGrowthSetup *setup) {
             .indices = g_memdup2(from->indices, from->index_count * sizeof(uint32_t)),
             .index_count = from->index_count,
             .is_ground = from->is_ground,
-            .is_clear = from->is_clear};
+            .is_clear = from->is_clear,
+            .span = from->span};
     }
 }
 
@@ -268,6 +264,14 @@ static bool has_place(const FrGrowth *growth, const FrSeed *seed) {
            fr_voxels_owner(growth->voxels, cell) != FR_VOXEL_SOLID;
 }
 
+/// Only the first plants stay.
+static void keep_plants(FrGrowth *growth, uint32_t count) {
+    for (uint32_t i = count; i < growth->plant_count; i++) {
+        fr_grown_clear(&growth->plants[i]);
+    }
+    growth->plant_count = count;
+}
+
 FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t count,
                              const FrContext *context) {
     FrStatus status =
@@ -282,26 +286,34 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     growth->plants = g_renew(FrGrownPlant, growth->plants, first + count);
     memset(growth->plants + first, 0, count * sizeof *growth->plants);
     growth->plant_count += count;
-    uint32_t left_out = 0;
+    uint32_t left_out = 0, missing = 0;
     GArray *particles = g_array_new(FALSE, FALSE, sizeof(FrParticle));
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count && status == FR_OK; i++) {
         FrGrownPlant *plant = &growth->plants[first + i];
         FR_ASSERT(seeds[i].species < growth->species_count);
         plant->seed = seeds[i];
         plant->is_left_out = !has_place(growth, &seeds[i]);
+        missing = plant->is_left_out && left_out == 0 ? i : missing;
         left_out += plant->is_left_out;
         if (!plant->is_left_out) {
             begin_plant(growth, plant);
-            fr_growth_fill_envelope(growth, plant, particles);
+            status = fr_growth_fill_envelope(growth, plant, particles, context);
         }
     }
-    status = fr_growth_add_particles(growth, (const FrParticle *)(void *)particles->data,
-                                     particles->len, context);
+    if (status == FR_OK) {
+        status = fr_growth_add_particles(growth, (const FrParticle *)(void *)particles->data,
+                                         particles->len, context);
+    }
     g_array_free(particles, TRUE);
-    if (left_out > 0) {
-        fr_diags_add(context->diags, FR_WARNING, "seed-place", (FrSpan){0},
-                     "%u of %u seeds have no place to stand: outside the arena or in an obstacle",
-                     left_out, count);
+    if (status != FR_OK) {
+        keep_plants(growth, first);
+    } else if (left_out > 0) {
+        fr_diags_add(
+            context->diags, FR_WARNING, "seed-place", (FrSpan){0},
+            "%u of %u seeds have no place to stand, the first of them at %g,%g,%g: outside "
+            "the arena or in an obstacle%s",
+            left_out, count, seeds[missing].at[0], seeds[missing].at[1], seeds[missing].at[2],
+            left_out == growth->plant_count ? "; nothing grows" : "");
     }
     return status;
 }

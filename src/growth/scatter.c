@@ -63,7 +63,8 @@ static bool is_in_ball(const FrSpeciesParams *params, double x, double y, double
     return params->envelope.count > 0 || x * x + y * y + z * z <= radius * radius;
 }
 
-void fr_growth_fill_envelope(const FrGrowth *growth, const FrGrownPlant *plant, GArray *particles) {
+FrStatus fr_growth_fill_envelope(const FrGrowth *growth, const FrGrownPlant *plant,
+                                 GArray *particles, const FrContext *context) {
     const FrReadySpecies *species = fr_species_of(growth, plant);
     const FrSpeciesParams *params = &species->params;
     double radius, low, high;
@@ -71,6 +72,9 @@ void fr_growth_fill_envelope(const FrGrowth *growth, const FrGrownPlant *plant, 
     versors frame = fr_frame_from_heading(growth->up, (vec3s){{0, 1, 0}});
     vec3s side[2] = {fr_frame_left(frame), fr_frame_up(frame)};
     for (uint32_t i = 0; i < params->particles; i++) {
+        if (fr_progress_is_cancelled(context->progress)) {
+            return FR_CANCELLED;
+        }
         FrKey key = fr_key_child(plant->key, i);
         for (uint32_t k = 0; k < TRIES; k++) {
             double x = radius * fr_random_signed(key, FR_CHANCE_PARTICLE, 3 * k);
@@ -89,6 +93,7 @@ void fr_growth_fill_envelope(const FrGrowth *growth, const FrGrownPlant *plant, 
             }
         }
     }
+    return FR_OK;
 }
 
 void fr_growth_reach_particles(FrGrowth *growth) {

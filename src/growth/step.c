@@ -230,8 +230,9 @@ bool fr_growth_undo(FrGrowth *growth) {
     return true;
 }
 
-/// More than this a step cannot make.
+/// More than this a step cannot make, and what there is fits.
 static FrStatus check_limits(const FrGrowth *growth, const FrContext *context) {
+    uint64_t bytes = growth->voxels->bytes;
     for (uint32_t p = 0; p < growth->plant_count; p++) {
         const FrGrownPlant *plant = &growth->plants[p];
         const FrReadySpecies *species = fr_species_of(growth, plant);
@@ -245,6 +246,12 @@ static FrStatus check_limits(const FrGrowth *growth, const FrContext *context) {
         if (status != FR_OK) {
             return status;
         }
+        bytes = fr_count_add(bytes, fr_grown_bytes(plant));
+    }
+    FrStatus status = fr_limit_check(bytes, context->limits.bytes, "bytes", "the growth",
+                                     (FrSpan){0}, context->diags);
+    if (status != FR_OK) {
+        return status;
     }
     return fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : FR_OK;
 }

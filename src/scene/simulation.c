@@ -105,6 +105,13 @@ static FrStatus run(FrSimulation *simulation, const FrSceneOptions *options,
     if (options->resume != NULL) {
         status = fr_simulation_restore(simulation, options->resume, options->resume_size,
                                        options->resume_span, context);
+        uint64_t reached = fr_simulation_stats(simulation).step;
+        if (status == FR_OK && reached > simulation->steps) {
+            fr_diags_add(context->diags, FR_WARNING, "resumed-later", options->resume_span,
+                         "the saved growth has done %" G_GUINT64_FORMAT
+                         " steps already, more than the %" G_GUINT64_FORMAT " asked for",
+                         reached, simulation->steps);
+        }
     }
     while (status == FR_OK && has_steps(simulation)) {
         status = run_step(simulation, options, context);

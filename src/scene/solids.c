@@ -86,6 +86,7 @@ static FrStatus add_obstacle(FrSolids *solids, const FrObstacle *obstacle,
     status = mesh_solid(plant, &origin, 0, context, &solid);
     if (status == FR_OK) {
         solid.is_clear = !obstacle->visible;
+        solid.span = obstacle->span;
         g_array_append_val(solids->all, solid);
     }
     fr_plant_free(plant);
@@ -109,7 +110,8 @@ static void add_hills(FrSolids *solids, const FrTerrain *terrain, const FrHills 
         .vertex_count = mesh->vertex_count,
         .indices = g_memdup2(mesh->indices, mesh->index_count * sizeof *mesh->indices),
         .index_count = mesh->index_count,
-        .is_ground = true};
+        .is_ground = true,
+        .span = terrain->span};
     g_array_append_val(solids->all, solid);
 }
 

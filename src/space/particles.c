@@ -2,6 +2,7 @@
 #include "frond/particles.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { MAX_CELLS = 1 << 24 };
 
@@ -15,7 +16,16 @@ static bool comes_before(const FrParticle *a, const FrParticle *b) {
     return a->influence != b->influence ? a->influence < b->influence : a->kill < b->kill;
 }
 
+static int compare_places(const void *a, const void *b) {
+    return (int)comes_before(b, a) - (int)comes_before(a, b);
+}
+
 static void sort_cell(FrParticle *particles, uint32_t count) {
+    enum { FEW = 32 };
+    if (count > FEW) {
+        qsort(particles, count, sizeof *particles, compare_places);
+        return;
+    }
     for (uint32_t i = 1; i < count; i++) {
         FrParticle moving = particles[i];
         uint32_t k = i;

@@ -9,11 +9,13 @@
 enum { TOP = 64 * 64 * 64, BLOCK = 512, SLAB = 1 << 22, HUGE_PAGE = 1 << 21 };
 
 /// Zeroed memory in huge pages where the machine has them: bricks are met in no order, and looking
-/// up their pages costs as much as they do.
+/// up their pages costs as much as they do. NULL where the machine has no more.
 static char *new_slab(void) {
     char *slab =
         mmap(NULL, SLAB + HUGE_PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    FR_ASSERT(slab != MAP_FAILED);
+    if (slab == MAP_FAILED) {
+        return NULL;
+    }
     char *aligned = slab + (HUGE_PAGE - (uintptr_t)slab % HUGE_PAGE) % HUGE_PAGE;
     madvise(aligned, SLAB, MADV_HUGEPAGE);
     return slab;
@@ -23,11 +25,15 @@ static void free_slab(void *slab) {
     munmap(slab, SLAB + HUGE_PAGE);
 }
 
-/// Zeroed memory that lives as long as the voxels, in whole cache lines.
+/// Zeroed memory that lives as long as the voxels, in whole cache lines; NULL if there is none.
 static void *take(FrVoxels *voxels, size_t size) {
     size = (size + 63) / 64 * 64;
     if (voxels->slab_used + size > voxels->slab_size) {
-        g_ptr_array_add(voxels->slabs, new_slab());
+        char *slab = new_slab();
+        if (slab == NULL) {
+            return NULL;
+        }
+        g_ptr_array_add(voxels->slabs, slab);
         voxels->slab_size = SLAB;
         voxels->slab_used = 0;
     }
@@ -58,11 +64,23 @@ void fr_voxels_free(FrVoxels *voxels) {
     }
 }
 
+FrStatus fr_voxels_check(const FrVoxels *voxels, uint64_t more, FrSpan span,
+                         const FrContext *context) {
+    if (fr_progress_is_cancelled(context->progress)) {
+        return FR_CANCELLED;
+    }
+    return fr_limit_check(fr_count_add(voxels->bytes, more), context->limits.bytes, "bytes",
+                          "what is solid in the arena", span, context->diags);
+}
+
 FrBrick *fr_voxels_make(FrVoxels *voxels, FrCell cell) {
     unsigned x = (unsigned)cell.at[0], y = (unsigned)cell.at[1], z = (unsigned)cell.at[2];
     FrBrick ***block = &voxels->top[((z >> 6) * 64 + (y >> 6)) * 64 + (x >> 6)];
     if (*block == NULL) {
         *block = take(voxels, BLOCK * sizeof(FrBrick *));
+    }
+    if (*block == NULL) {
+        return NULL;
     }
     FrBrick **brick = &(*block)[((z >> 3 & 7) * 8 + (y >> 3 & 7)) * 8 + (x >> 3 & 7)];
     if (*brick == NULL) {
@@ -76,8 +94,10 @@ FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell) {
     if (brick == NULL) {
         brick = fr_voxels_make(voxels, cell);
     }
+    FR_ASSERT(brick != NULL);
     if (brick->voxels == NULL) {
         brick->voxels = take(voxels, FR_BRICK_CELLS * sizeof(FrVoxel));
+        FR_ASSERT(brick->voxels != NULL);
         memset(brick->voxels, 0xff, FR_BRICK_CELLS * sizeof(FrVoxel));
     }
     return brick;

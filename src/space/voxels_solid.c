@@ -72,7 +72,8 @@ static bool touches(const Triangle *triangle, const double middle[3], double hal
 // A little more than half a cell, so that rounding leaves no gaps.
 #define HALF (0.5 + 1e-6)
 
-static void fill_brick(FrVoxels *voxels, const Triangle *triangle, const int brick[3],
+/// False if there is no memory.
+static bool fill_brick(FrVoxels *voxels, const Triangle *triangle, const int brick[3],
                        bool is_ground) {
     FrBrick *into = NULL;
     for (int z = 0; z < 8; z++) {
@@ -86,6 +87,9 @@ static void fill_brick(FrVoxels *voxels, const Triangle *triangle, const int bri
                 if (into == NULL) {
                     FrCell cell = {{(int16_t)at[0], (int16_t)at[1], (int16_t)at[2]}};
                     into = fr_voxels_make(voxels, cell);
+                    if (into == NULL) {
+                        return false;
+                    }
                 }
                 uint64_t bit = UINT64_C(1) << (y * 8 + x);
                 bool was_solid = into->solid[z] & bit;
@@ -99,46 +103,71 @@ static void fill_brick(FrVoxels *voxels, const Triangle *triangle, const int bri
             }
         }
     }
+    return true;
 }
 
-static void add_triangle(FrVoxels *voxels, const Triangle *triangle, bool is_ground) {
-    int from[3], to[3];
+/// The bricks that a triangle may touch, none of them beyond `end`; false if there are none.
+static bool bricks_of(const FrVoxels *voxels, const Triangle *triangle, const double end[3],
+                      int from[3], int to[3]) {
+    enum { MARGIN = 8 }; // cells beyond the end that a tip looks at
     for (int k = 0; k < 3; k++) {
         double low = floor((triangle->low[k] - 0.001) / 8);
         double high = floor((triangle->high[k] + 0.001) / 8);
-        if (!(high >= 0) || !(low < FR_VOXELS_WIDTH / 8)) {
-            return;
+        double most = ((end[k] - voxels->origin[k]) / voxels->cell + MARGIN) / 8;
+        most = fmin(floor(most), FR_VOXELS_WIDTH / 8 - 1);
+        if (!(high >= 0) || !(low <= most)) {
+            return false;
         }
         from[k] = (int)fmax(low, 0);
-        to[k] = (int)fmin(high, FR_VOXELS_WIDTH / 8 - 1);
+        to[k] = (int)fmin(high, most);
+    }
+    return true;
+}
+
+static FrStatus add_triangle(FrVoxels *voxels, const Triangle *triangle,
+                             const FrVoxelSurface *surface, const double end[3],
+                             const FrContext *context) {
+    int from[3], to[3];
+    if (!bricks_of(voxels, triangle, end, from, to)) {
+        return FR_OK;
     }
     int brick[3];
     for (brick[2] = from[2]; brick[2] <= to[2]; brick[2]++) {
         for (brick[1] = from[1]; brick[1] <= to[1]; brick[1]++) {
+            FrStatus status = fr_voxels_check(voxels, 0, surface->span, context);
+            if (status != FR_OK) {
+                return status;
+            }
             for (brick[0] = from[0]; brick[0] <= to[0]; brick[0]++) {
                 double middle[3];
                 for (int k = 0; k < 3; k++) {
                     middle[k] = brick[k] * 8 + 4;
                 }
-                if (touches(triangle, middle, 4 + 1e-3)) {
-                    fill_brick(voxels, triangle, brick, is_ground);
+                if (touches(triangle, middle, 4 + 1e-3) &&
+                    !fill_brick(voxels, triangle, brick, surface->is_ground)) {
+                    fr_diags_add(context->diags, FR_ERROR, "out-of-memory", surface->span,
+                                 "there is no memory for what is solid in the arena");
+                    return FR_ERR_MACHINE;
                 }
             }
         }
     }
+    return FR_OK;
 }
 
-void fr_voxels_add_triangles(FrVoxels *voxels, const vec3s *positions, const uint32_t *indices,
-                             uint32_t index_count, bool is_ground) {
-    for (uint32_t i = 0; i + 2 < index_count; i += 3) {
+FrStatus fr_voxels_add_triangles(FrVoxels *voxels, const FrVoxelSurface *surface,
+                                 const double end[3], const FrContext *context) {
+    FrStatus status = FR_OK;
+    for (uint32_t i = 0; i + 2 < surface->index_count && status == FR_OK; i += 3) {
         double corner[3][3];
         for (uint32_t c = 0; c < 3; c++) {
             for (int k = 0; k < 3; k++) {
-                double at = (double)positions[indices[i + c]].raw[k];
+                double at = (double)surface->positions[surface->indices[i + c]].raw[k];
                 corner[c][k] = (at - voxels->origin[k]) / voxels->cell;
             }
         }
         Triangle triangle = triangle_of((const double(*)[3])corner);
-        add_triangle(voxels, &triangle, is_ground);
+        status = add_triangle(voxels, &triangle, surface, end, context);
     }
+    return status;
 }

@@ -186,8 +186,7 @@ FrStroke *fr_stroke_parse(const char *text, FrSpan span, FrDiags *diags) {
             stroke = fr_stroke_new((const FrStrokePoint *)(const void *)points->data, points->len);
             if (stroke == NULL) {
                 fr_diags_add(diags, FR_ERROR, "bad-stroke", span,
-                             "a stroke needs two different points at least, none farther than "
-                             "1e9 m");
+                             "two different points are needed at least, none farther than 1e9 m");
             }
             break;
         }
@@ -196,7 +195,7 @@ FrStroke *fr_stroke_parse(const char *text, FrSpan span, FrDiags *diags) {
         if (!read_point(&at, &point)) {
             int shown = (int)MIN(strcspn(begin, " \t\r\n"), 40);
             fr_diags_add(diags, FR_ERROR, "bad-stroke", span,
-                         "point %u of the stroke is '%.*s'; points are x,y,z with a pressure and a "
+                         "point %u is '%.*s'; points are x,y,z with a pressure and a "
                          "time if need be",
                          points->len + 1, shown, begin);
             break;

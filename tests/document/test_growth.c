@@ -68,6 +68,11 @@ static void test_world(void) {
     FrContext context = fr_context_default();
     g_assert_cmpint(fr_document_set(parsed.document, "growth.steps", "9", &context), ==, FR_OK);
     g_assert_cmpint(fr_document_growth(parsed.document)->params.steps, ==, 9);
+    g_assert_cmpint(fr_document_set(parsed.document, "scene.growth.steps", "8", &context), ==,
+                    FR_OK);
+    g_assert_cmpint(fr_document_growth(parsed.document)->params.steps, ==, 8);
+    g_assert_cmpint(fr_document_set(parsed.document, "p.growth.steps", "6", &context), ==,
+                    FR_ERR_USAGE);
     g_assert_cmpint(fr_document_set(parsed.document, "p.species.step", "0.5", &context), ==, FR_OK);
     g_assert_cmpfloat(species_of(&parsed)->params.step, ==, 0.5);
     forget(&parsed);
@@ -95,6 +100,10 @@ static void test_wrong(void) {
         {SCENE("<growth gravity='0'/>"), "no-direction"},
         {SCENE("<growth min='0,0,0' max='1,1,0'/>"), "arena-cells"},
         {SCENE("<growth cell='0.001'/>"), "arena-cells"},
+        {PLANT("<species envelope='1,0'/>"), "bad-envelope"},
+        {PLANT("<species envelope='1,0 2,0'/>"), "bad-envelope"},
+        {PLANT("<species envelope='-1,0 2,3'/>"), "bad-envelope"},
+        {PLANT("<species box='2'/>"), "even-box"},
         {SCENE("<growth><particles shape='direction' direction='0'/></growth>"), "no-direction"},
         {SCENE("<growth><particles shape='brush'/></growth>"), "bad-stroke"},
         {SCENE("<growth><particles>0,0,0 1,1,1</particles></growth>"), "unexpected-text"},

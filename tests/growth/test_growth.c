@@ -176,6 +176,35 @@ static void test_hostile(void) {
     world_clear(&world);
 }
 
+/// What there is already counts, and stays.
+static void test_limited(void) {
+    World world;
+    world_init(&world);
+    world_sow_one(&world);
+    FrGrowthStats stats = world_step(&world, 4);
+    world.context.limits.bytes = stats.cells + stats.bytes - 1;
+    g_assert_cmpint(fr_growth_step(world.growth, &world.context), ==, FR_ERR_LIMIT);
+    g_assert_cmpuint(fr_growth_stats(world.growth).digest, ==, stats.digest);
+    world.context.limits.bytes++;
+    g_assert_cmpint(fr_growth_step(world.growth, &world.context), ==, FR_OK);
+    world_clear(&world);
+}
+
+/// Seeds whose envelopes are filled when it is cancelled do not stay.
+static void test_cancelled(void) {
+    World world;
+    world_init(&world);
+    world_set(&world, "particles", "1000");
+    world_sow_one(&world);
+    world.context.progress = fr_progress_new(NULL, NULL);
+    fr_progress_cancel(world.context.progress);
+    g_assert_cmpint(fr_growth_add_seeds(world.growth, &(FrSeed){.id = 2}, 1, &world.context), ==,
+                    FR_CANCELLED);
+    g_assert_cmpuint(fr_growth_plant_count(world.growth), ==, 1);
+    fr_progress_free(world.context.progress);
+    world_clear(&world);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/growth/growth/a bud without laterals makes an internode a step", test_single);
@@ -187,5 +216,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/growth/growth/undone steps can be made again", test_undone);
     g_test_add_func("/growth/growth/damaged states are refused and change nothing", test_damaged);
     g_test_add_func("/growth/growth/hostile states crash nothing", test_hostile);
+    g_test_add_func("/growth/growth/a step beyond the limit of bytes changes nothing",
+                    test_limited);
+    g_test_add_func("/growth/growth/seeds that are cancelled do not stay", test_cancelled);
     return g_test_run();
 }

@@ -139,8 +139,17 @@ static void filled_voxels(void) {
     Cells *cells = fill(moved, sides, 36);
     FrVoxels *voxels = fr_voxels_new(grid.origin, grid.cell);
     const double end[3] = {2, 2, 2};
-    g_assert_false(fr_voxels_fill(voxels, moved, sides, 36, false, end, 0));
-    g_assert_true(fr_voxels_fill(voxels, moved, sides, 36, false, end, 1 << 20));
+    const FrVoxelSurface surface = {.positions = moved, .indices = sides, .index_count = 36};
+    FrContext context = fr_context_default();
+    context.limits.bytes = voxels->bytes;
+    g_assert_cmpint(fr_voxels_fill(voxels, &surface, end, &context), ==, FR_ERR_LIMIT);
+    context.progress = fr_progress_new(NULL, NULL);
+    context.limits.bytes = voxels->bytes + (1 << 20);
+    fr_progress_cancel(context.progress);
+    g_assert_cmpint(fr_voxels_fill(voxels, &surface, end, &context), ==, FR_CANCELLED);
+    fr_progress_free(context.progress);
+    context.progress = NULL;
+    g_assert_cmpint(fr_voxels_fill(voxels, &surface, end, &context), ==, FR_OK);
     for (int i = 0; i < SIDE * SIDE * SIDE; i++) {
         int x = i % SIDE, y = i / SIDE % SIDE, z = i / SIDE / SIDE;
         FrCell cell = {{(int16_t)x, (int16_t)y, (int16_t)z}};
