@@ -34,13 +34,14 @@ static bool has_output(const CliOptions *options, const char *const *extensions)
 
 /// Says which options nothing that is written reads.
 static void check_effects(const CliOptions *options) {
-    static const char *const gltf[] = {".glb", ".gltf", NULL};
-    static const char *const nurbs[] = {".igs", ".iges", ".stp", ".step", ".nurbs.obj", NULL};
-    if (options->leaves != FR_LEAVES_MERGED && !has_output(options, gltf)) {
-        cli_message("--leaves has no effect: it is for .glb and .gltf");
+    static const char *const shared[] = {".glb", ".gltf", ".usda", NULL};
+    static const char *const shapes[] = {".igs",  ".iges", ".stp", ".step", ".obj",  ".glb",
+                                         ".gltf", ".ply",  ".stl", ".3mf",  ".usda", NULL};
+    if (options->leaves != FR_LEAVES_MERGED && !has_output(options, shared)) {
+        cli_message("--leaves has no effect: it is for .glb, .gltf and .usda");
     }
-    if (options->nurbs->len > 0 && options->outputs->len > 0 && !has_output(options, nurbs)) {
-        cli_message("--nurbs has no effect: it is for surfaces, .igs, .stp and .nurbs.obj");
+    if (options->nurbs->len > 0 && options->outputs->len > 0 && !has_output(options, shapes)) {
+        cli_message("--nurbs has no effect: graphs have no surface");
     }
     if (options->lod > 0 && options->outputs->len == 0) {
         cli_message("--lod has no effect: nothing is written; -o names a file");

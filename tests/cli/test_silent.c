@@ -57,10 +57,12 @@ static const Case cases[] = {
      "*stem *branches *2  select=\"stem\", \"stem:1\" to \"stem:2\"\n  stem:1  #*\n  stem:2  #*\n*",
      ""},
     {"an option that no output reads is said to have no effect", GRAPH("<leaf id=\"l\"/>"),
-     "build a.frond -o a.obj --leaves gpu --nurbs circle=nine", 0, "*a.obj: *",
+     "build a.frond -o a.mtg --leaves gpu --nurbs circle=nine", 0, "*a.mtg: *",
      "frond: --leaves has no effect: *\nfrond: --nurbs has no effect: *\n"},
     {"an option that an output reads is not", GRAPH("<leaf id=\"l\"/>"),
      "build a.frond -o a.obj -o a.glb --leaves nodes --lod 1", 0, "*a.obj: *a.glb: *", ""},
+    {"settings of surfaces are read by every format that has one", GRAPH("<leaf id=\"l\"/>"),
+     "build a.frond -o a.stl --nurbs circle=nine", 0, "*a.stl: *", ""},
     {"a slip of a digit is refused before there is a mesh",
      GRAPH("<tree id=\"t\" number=\"1000\"/><tree id=\"b\" number=\"1000\"/><leaf id=\"leaf\"/>"
            "<link from=\"t\" to=\"b\" kind=\"branch\"/><link from=\"b\" to=\"leaf\" "
