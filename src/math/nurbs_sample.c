@@ -50,12 +50,14 @@ static void make_row(const FrNurbsSurface *s, const FrBases *v, const double (*c
     }
 }
 
+/// False where the two are parallel, or one of them is nothing but rounding, as at a pole.
 static bool unit_cross(const double a[3], const double b[3], double normal[3]) {
     double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
     double z = a[0] * b[1] - a[1] * b[0], length = sqrt(x * x + y * y + z * z);
-    double sizes =
-        sqrt((a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
-    bool is_plain = length > 1e-7 * sizes && sizes > 0.0;
+    double size_a = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    double size_b = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+    bool has_both = fmin(size_a, size_b) > 1e-9 * fmax(size_a, size_b);
+    bool is_plain = has_both && length > 1e-7 * size_a * size_b;
     normal[0] = is_plain ? x / length : 0.0;
     normal[1] = is_plain ? y / length : 0.0;
     normal[2] = is_plain ? z / length : 1.0;

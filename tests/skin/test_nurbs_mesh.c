@@ -154,6 +154,32 @@ static void closed(void) {
     fr_plant_free(plant);
 }
 
+/// A straight stem is seen from the side or from an end; where a cap closes to a point, rounding
+/// must not lend that point a direction.
+static void caps_are_flat(void) {
+    FrPlant *plant = fr_plant_new("leaning");
+    uint32_t axis = fr_plant_add_axis(plant, FR_NONE, (vec3s){{0.3F, 0.1F, 0}}, 0.1F);
+    versors lean = fr_rotation_about(glms_vec3_normalize((vec3s){{1, 0.7F, 0.2F}}), 0.3F);
+    fr_plant_add_node(plant, axis, lean, 0.4F, 0.1F);
+    plant->axes.flags[axis] = FR_CUT;
+    vec3s towards = glms_quat_rotatev(lean, (vec3s){{0, 0, 1}});
+    FrNurbsParams params = fr_nurbs_default();
+    for (int form = 0; form < 4; form++) {
+        params.circle = form;
+        FrMesh *mesh = meshed(plant, &params);
+        uint64_t on_caps = 0;
+        for (uint64_t v = 0; v < mesh->vertex_count; v++) {
+            const float *n = mesh->vertices[v].normal;
+            double along = fabs((double)glms_vec3_dot(towards, (vec3s){{n[0], n[1], n[2]}}));
+            g_assert_true(along < 1e-3 || along > 1 - 1e-3);
+            on_caps += along > 0.5;
+        }
+        g_assert_cmpuint(on_caps, >, 6);
+        fr_mesh_free(mesh);
+    }
+    fr_plant_free(plant);
+}
+
 /// Open edges of the halves of a blade: all but those at the midrib are its outline.
 static void uncracked(void) {
     FrShape leaf = leaf_shape();
@@ -303,6 +329,7 @@ int main(int argc, char **argv) {
                     near_surface);
     g_test_add_func("/skin/nurbs_mesh/what bends more or is larger has more triangles", adapts);
     g_test_add_func("/skin/nurbs_mesh/a tube with caps is closed and has its volume", closed);
+    g_test_add_func("/skin/nurbs_mesh/caps are flat up to their middle", caps_are_flat);
     g_test_add_func("/skin/nurbs_mesh/halves of a blade meet without a crack", uncracked);
     g_test_add_func("/skin/nurbs_mesh/a leaf with a thickness is closed", whole_leaf);
     g_test_add_func("/skin/nurbs_mesh/any number of threads makes the same triangles", threads);
