@@ -30,6 +30,10 @@ typedef struct FrIoStats {
 FR_API FrIoOptions fr_io_options_default(void);
 /// True if the extension of `path` is one that fr_io_write() knows.
 FR_API bool fr_io_can_write(const char *path);
+/// True if the format of `path` holds the skin of plants; graphs and lines do not.
+FR_API bool fr_io_has_surface(const char *path);
+/// True if the format of `path` can place leaves that share a mesh, as FrIoOptions.leaves says.
+FR_API bool fr_io_has_instances(const char *path);
 /// The extensions, e.g. ".glb", for messages; NULL-terminated.
 FR_API const char *const *fr_io_extensions(void);
 /// Writes the scene in the format of the extension of `path`: .glb .gltf .usda .obj .ply .stl .3mf,

@@ -99,6 +99,9 @@ FR_API FrScene *fr_scene_single(const FrScene *scene, uint32_t plant);
 FR_API FR_MUST_USE FrStatus fr_scene_count(const FrDocument *document, const FrContext *context,
                                            uint64_t *count);
 FR_API void fr_scene_free(FrScene *scene);
+/// How many plants and stands of plants there are: those of obstacles come behind them.
+FR_API uint32_t fr_scene_plant_count(const FrScene *scene);
+FR_API uint32_t fr_scene_stand_count(const FrScene *scene);
 FR_API FrDigest fr_scene_digest(const FrScene *scene);
 /// The triangles of a plant as it is shown: its skin, or those of its rational surfaces.
 FR_API FR_MUST_USE FrStatus fr_scene_mesh(const FrScenePlant *plant, const FrSkinParams *skin,

@@ -28,7 +28,7 @@ bool cli_nurbs_set(FrNurbsParams *params, const char *text) {
 }
 
 void cli_nurbs_apply(const CliOptions *options, FrScene *scene, FrNurbsParams *plain) {
-    uint32_t plants = options->nurbs->len > 0 ? scene->plants->len - scene->obstacles : 0;
+    uint32_t plants = options->nurbs->len > 0 ? fr_scene_plant_count(scene) : 0;
     for (guint i = 0; i < options->nurbs->len; i++) {
         cli_nurbs_set(plain, g_ptr_array_index(options->nurbs, i));
     }

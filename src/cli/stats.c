@@ -22,7 +22,7 @@ void cli_count_made(json_t *object, const FrPlant *plant, const uint64_t *made) 
 }
 
 static Totals count_scene(const FrScene *scene) {
-    guint stands = scene->stands->len - scene->obstacles;
+    guint stands = fr_scene_stand_count(scene);
     Totals totals = {
         .plants = stands, .by_component = json_object(), .by_production = json_object()};
     for (guint i = 0; i < stands; i++) {
@@ -37,7 +37,7 @@ static Totals count_scene(const FrScene *scene) {
         cli_count_made(built->modules > 0 ? totals.by_production : totals.by_component, plant,
                        built->by_component);
     }
-    for (guint i = 0; i < scene->plants->len - scene->obstacles; i++) {
+    for (guint i = 0; i < fr_scene_plant_count(scene); i++) {
         totals.shapes += g_array_index(scene->plants, FrScenePlant, i).plant->shapes->len;
     }
     return totals;
@@ -118,7 +118,7 @@ static double wood_of(const FrPlant *plant) {
 static void set_living(json_t *stats, const FrScene *scene) {
     uint64_t living = 0;
     double wood = 0;
-    for (guint i = 0; i < scene->stands->len - scene->obstacles; i++) {
+    for (guint i = 0; i < fr_scene_stand_count(scene); i++) {
         uint32_t index = g_array_index(scene->stands, FrStand, i).plant;
         const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, index).plant;
         if (is_alive(plant)) {
@@ -165,7 +165,7 @@ static uint64_t peak_bytes(void) {
 /// What the turtle of each L-system drew, in the order of the plants.
 static json_t *drawn_of(const FrScene *scene) {
     json_t *list = json_array();
-    for (guint i = 0; i < scene->plants->len - scene->obstacles; i++) {
+    for (guint i = 0; i < fr_scene_plant_count(scene); i++) {
         const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, i);
         if (built->drawn.modules > 0) {
             json_array_append_new(list, cli_drawn_json(&built->drawn));

@@ -17,15 +17,9 @@ static bool check_outputs(const CliOptions *options) {
     return true;
 }
 
-static bool has_output(const CliOptions *options, const char *const *extensions) {
+static bool has_output(const CliOptions *options, bool (*is_one)(const char *path)) {
     for (guint i = 0; i < options->outputs->len; i++) {
-        char *path = g_ascii_strdown(g_ptr_array_index(options->outputs, i), -1);
-        bool is_one = false;
-        for (size_t k = 0; extensions[k] != NULL; k++) {
-            is_one |= g_str_has_suffix(path, extensions[k]);
-        }
-        g_free(path);
-        if (is_one) {
+        if (is_one(g_ptr_array_index(options->outputs, i))) {
             return true;
         }
     }
@@ -34,13 +28,11 @@ static bool has_output(const CliOptions *options, const char *const *extensions)
 
 /// Says which options nothing that is written reads.
 static void check_effects(const CliOptions *options) {
-    static const char *const shared[] = {".glb", ".gltf", ".usda", NULL};
-    static const char *const shapes[] = {".igs",  ".iges", ".stp", ".step", ".obj",  ".glb",
-                                         ".gltf", ".ply",  ".stl", ".3mf",  ".usda", NULL};
-    if (options->leaves != FR_LEAVES_MERGED && !has_output(options, shared)) {
+    if (options->leaves != FR_LEAVES_MERGED && !has_output(options, fr_io_has_instances)) {
         cli_message("--leaves has no effect: it is for .glb, .gltf and .usda");
     }
-    if (options->nurbs->len > 0 && options->outputs->len > 0 && !has_output(options, shapes)) {
+    if (options->nurbs->len > 0 && options->outputs->len > 0 &&
+        !has_output(options, fr_io_has_surface)) {
         cli_message("--nurbs has no effect: graphs have no surface");
     }
     if (options->lod > 0 && options->outputs->len == 0) {

@@ -9,28 +9,36 @@ typedef FrStatus (*FrFormatWrite)(const FrScene *scene, const char *path,
                                   const FrIoOptions *options, const FrContext *context,
                                   FrIoStats *stats);
 
+/// What a format makes use of.
+enum {
+    SURFACE = 1 << 0,   ///< the skin
+    INSTANCES = 1 << 1, ///< leaves that share a mesh
+};
+
 // A longer extension stands before the one that it ends in.
 #define FORMATS(X)                                                                                 \
-    X(".3mf", fr_three_mf_write)                                                                   \
-    X(".glb", fr_glb_write)                                                                        \
-    X(".gltf", fr_gltf_write)                                                                      \
-    X(".igs", fr_iges_write)                                                                       \
-    X(".iges", fr_iges_write)                                                                      \
-    X(".mtg", fr_mtg_write)                                                                        \
-    X(".nurbs.obj", fr_free_form_write)                                                            \
-    X(".obj", fr_obj_write)                                                                        \
-    X(".opf", fr_opf_write)                                                                        \
-    X(".ply", fr_ply_write)                                                                        \
-    X(".step", fr_step_write)                                                                      \
-    X(".stl", fr_stl_write)                                                                        \
-    X(".stp", fr_step_write)                                                                       \
-    X(".txt", fr_lines_write)                                                                      \
-    X(".usda", fr_usd_write)
+    X(".3mf", fr_three_mf_write, SURFACE)                                                          \
+    X(".glb", fr_glb_write, SURFACE | INSTANCES)                                                   \
+    X(".gltf", fr_gltf_write, SURFACE | INSTANCES)                                                 \
+    X(".igs", fr_iges_write, SURFACE)                                                              \
+    X(".iges", fr_iges_write, SURFACE)                                                             \
+    X(".mtg", fr_mtg_write, 0)                                                                     \
+    X(".nurbs.obj", fr_free_form_write, SURFACE)                                                   \
+    X(".obj", fr_obj_write, SURFACE)                                                               \
+    X(".opf", fr_opf_write, 0)                                                                     \
+    X(".ply", fr_ply_write, SURFACE)                                                               \
+    X(".step", fr_step_write, SURFACE)                                                             \
+    X(".stl", fr_stl_write, SURFACE)                                                               \
+    X(".stp", fr_step_write, SURFACE)                                                              \
+    X(".txt", fr_lines_write, 0)                                                                   \
+    X(".usda", fr_usd_write, SURFACE | INSTANCES)
 
-#define EXTENSION(extension, write) extension,
-#define WRITER(extension, write) write,
+#define EXTENSION(extension, write, uses) extension,
+#define WRITER(extension, write, uses) write,
+#define USES(extension, write, uses) uses,
 static const char *const extensions[] = {FORMATS(EXTENSION) NULL};
 static const FrFormatWrite writers[] = {FORMATS(WRITER)};
+static const int formats_use[] = {FORMATS(USES)};
 
 FrIoOptions fr_io_options_default(void) {
     return (FrIoOptions){
@@ -41,34 +49,48 @@ const char *const *fr_io_extensions(void) {
     return extensions;
 }
 
-static FrFormatWrite writer_of(const char *path) {
+/// The row of the format of a path, −1.
+static int format_of(const char *path) {
     size_t length = strlen(path);
-    for (size_t i = 0; extensions[i] != NULL; i++) {
+    for (int i = 0; extensions[i] != NULL; i++) {
         size_t tail = strlen(extensions[i]);
         if (length >= tail && g_ascii_strcasecmp(path + length - tail, extensions[i]) == 0) {
-            return writers[i];
+            return i;
         }
     }
-    return NULL;
+    return -1;
 }
 
 bool fr_io_can_write(const char *path) {
-    return writer_of(path) != NULL;
+    return format_of(path) >= 0;
+}
+
+static bool uses(const char *path, int what) {
+    int format = format_of(path);
+    return format >= 0 && (formats_use[format] & what) != 0;
+}
+
+bool fr_io_has_surface(const char *path) {
+    return uses(path, SURFACE);
+}
+
+bool fr_io_has_instances(const char *path) {
+    return uses(path, INSTANCES);
 }
 
 FrStatus fr_io_write(const FrScene *scene, const char *path, const FrIoOptions *options,
                      const FrContext *context, FrIoStats *stats) {
     FrIoStats own = {0};
-    FrFormatWrite write = writer_of(path);
+    int format = format_of(path);
     FrStatus status;
-    if (write == NULL) {
+    if (format < 0) {
         char *known = g_strjoinv(" ", (char **)extensions);
         fr_diags_add(context->diags, FR_ERROR, "unknown-format", (FrSpan){0},
                      "'%s' has none of the extensions that can be written: %s", path, known);
         g_free(known);
         status = FR_ERR_USAGE;
     } else {
-        status = write(scene, path, options, context, &own);
+        status = writers[format](scene, path, options, context, &own);
     }
     if (stats != NULL) {
         *stats = own;

@@ -41,7 +41,7 @@ static void add_stand(FrLines *lines, FrOutput *output, const FrStand *stand) {
 
 static bool write_lines(void *user, int descriptor) {
     FrLines *lines = user;
-    guint stands = lines->scene->stands->len - lines->scene->obstacles;
+    guint stands = fr_scene_stand_count(lines->scene);
     FrOutput output;
     fr_output_start(&output, descriptor, lines->context->progress);
     fr_output_text(&output, "# Frond " FR_VERSION ": x y z x y z r, metres, z up\n");

@@ -27,6 +27,7 @@ typedef struct FrMtgPlant {
     const FrMtg *mtg;
     const FrTopology *topology;
     const FrStand *stand;
+    FrPose pose; ///< of the stand
     FrOutput *output;
     uint32_t axes, nodes, organs;
 } FrMtgPlant;
@@ -88,11 +89,10 @@ static void add_component(FrOutput *output, const FrPlant *plant, uint32_t compo
 }
 
 /// What follows the name: length, radius (none below 0), and a place in the world.
-static void add_features(FrOutput *output, double length, double radius, const FrStand *stand,
+static void add_features(FrOutput *output, double length, double radius, const FrPose *pose,
                          vec3s at) {
-    FrPose pose = fr_io_pose(stand, FR_UP_Z);
     FrVertex vertex = {.position = {at.x, at.y, at.z}};
-    vertex = fr_io_posed(&pose, &vertex);
+    vertex = fr_io_posed(pose, &vertex);
     fr_output_text(output, "\t");
     fr_output_fixed(output, length, 6);
     fr_output_text(output, "\t");
@@ -121,7 +121,7 @@ static void add_organ(FrMtgPlant *own, uint32_t organ, uint32_t column) {
     fr_output_integer(own->output, ++own->organs);
     add_tabs(own->output, own->mtg->columns - column);
     add_component(own->output, plant, plant->organs.component[organ]);
-    add_features(own->output, size * scale, -1, own->stand, at);
+    add_features(own->output, size * scale, -1, &own->pose, at);
 }
 
 static bool add_node(void *user, const FrTopologyStep *step) {
@@ -140,7 +140,7 @@ static bool add_node(void *user, const FrTopologyStep *step) {
     add_tabs(own->output, own->mtg->columns - column);
     add_component(own->output, plant, plant->axes.component[plant->nodes.axis[node]]);
     add_features(own->output, (double)plant->nodes.length[node] * own->stand->scale,
-                 (double)plant->nodes.radius[node] * own->stand->scale, own->stand,
+                 (double)plant->nodes.radius[node] * own->stand->scale, &own->pose,
                  plant->nodes.position[node]);
     uint32_t organ = own->topology->first_organ[node];
     for (; organ != FR_NONE; organ = own->topology->next_organ[organ]) {
@@ -159,7 +159,7 @@ static void add_loose(FrMtgPlant *own) {
     fr_output_text(own->output, "/I");
     fr_output_integer(own->output, ++own->nodes);
     add_tabs(own->output, own->mtg->columns - 1);
-    add_features(own->output, 0, 0, own->stand, (vec3s){{0, 0, 0}});
+    add_features(own->output, 0, 0, &own->pose, (vec3s){{0, 0, 0}});
     uint32_t organ = own->topology->first_loose;
     for (; organ != FR_NONE; organ = own->topology->next_organ[organ]) {
         add_organ(own, organ, 2);
@@ -169,7 +169,11 @@ static void add_loose(FrMtgPlant *own) {
 static void add_stand(FrMtg *mtg, FrOutput *output, guint number) {
     const FrStand *stand = fr_io_stand(mtg->scene, number);
     const FrTopology *topology = &mtg->plants[stand->plant];
-    FrMtgPlant own = {.mtg = mtg, .topology = topology, .stand = stand, .output = output};
+    FrMtgPlant own = {.mtg = mtg,
+                      .topology = topology,
+                      .stand = stand,
+                      .pose = fr_io_pose(stand, FR_UP_Z),
+                      .output = output};
     fr_output_text(output, "/P");
     fr_output_integer(output, number + 1);
     add_tabs(output, mtg->columns);
@@ -188,14 +192,9 @@ static void add_stand(FrMtg *mtg, FrOutput *output, guint number) {
     mtg->entities += 1 + (uint64_t)own.axes + own.nodes + own.organs;
 }
 
-/// Obstacles stand behind the plants and are none.
-static guint plants_in(const FrScene *scene) {
-    return scene->stands->len - scene->obstacles;
-}
-
 static bool write_mtg(void *user, int descriptor) {
     FrMtg *mtg = user;
-    guint stands = plants_in(mtg->scene);
+    guint stands = fr_scene_stand_count(mtg->scene);
     FrOutput output;
     fr_output_start(&output, descriptor, mtg->context->progress);
     add_title(&output, mtg->columns);
@@ -209,7 +208,7 @@ static bool write_mtg(void *user, int descriptor) {
 }
 
 static FrStatus make_topologies(FrMtg *mtg) {
-    for (guint s = 0; s < plants_in(mtg->scene); s++) {
+    for (guint s = 0; s < fr_scene_stand_count(mtg->scene); s++) {
         uint32_t plant = fr_io_stand(mtg->scene, s)->plant;
         FrTopology *topology = &mtg->plants[plant];
         if (topology->plant == NULL) {

@@ -16,9 +16,8 @@ static const double cm = 100; ///< in a metre
 
 /// A point of a plant or, moved by the stand but not to its place, a direction.
 static vec3s placed(const FrOpf *opf, vec3s at, bool is_direction) {
-    FrPose pose = fr_io_pose(opf->stand, FR_UP_Z);
     FrVertex vertex = {.position = {at.x, at.y, at.z}, .normal = {at.x, at.y, at.z}};
-    vertex = fr_io_posed(&pose, &vertex);
+    vertex = fr_io_posed(&opf->pose, &vertex);
     const float *result = is_direction ? vertex.normal : vertex.position;
     return (vec3s){{result[0], result[1], result[2]}};
 }
@@ -180,6 +179,7 @@ static void add_loose(FrOpf *opf) {
 
 static void add_stand(FrOpf *opf, guint number) {
     opf->stand = fr_io_stand(opf->scene, number);
+    opf->pose = fr_io_pose(opf->stand, FR_UP_Z);
     opf->plant = &opf->plants[opf->stand->plant];
     const FrTopology *topology = &opf->plant->topology;
     open_entity(opf, "decomp", "Individual", 1);
@@ -195,7 +195,7 @@ static void add_stand(FrOpf *opf, guint number) {
 
 static bool write_opf(void *user, int descriptor) {
     FrOpf *opf = user;
-    guint stands = opf->scene->stands->len - opf->scene->obstacles;
+    guint stands = fr_scene_stand_count(opf->scene);
     fr_output_start(&opf->output, descriptor, opf->context->progress);
     fr_output_text(&opf->output, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                                  "<opf version=\"2.0\" editable=\"true\">\n");

@@ -28,6 +28,7 @@ typedef struct FrOpf {
     uint32_t materials; ///< of all plants: the barks come first among the shapes
     const FrOpfPlant *plant;
     const FrStand *stand;
+    FrPose pose; ///< of the stand
     FrOutput output;
     uint32_t id; ///< of the last entity
     uint64_t bytes;

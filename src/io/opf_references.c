@@ -67,7 +67,7 @@ FrStatus fr_opf_make_references(FrOpf *opf) {
     FrStatus status = FR_OK;
     uint32_t meshes = 1; // the cylinder is the first
     opf->plants = g_new0(FrOpfPlant, MAX(scene->plants->len, 1));
-    for (guint s = 0; s < scene->stands->len - scene->obstacles && status == FR_OK; s++) {
+    for (guint s = 0; s < fr_scene_stand_count(scene) && status == FR_OK; s++) {
         FrOpfPlant *own = &opf->plants[fr_io_stand(scene, s)->plant];
         if (own->groups == NULL) {
             fr_topology_init(&own->topology, fr_io_plant(scene, fr_io_stand(scene, s)->plant));

@@ -49,6 +49,8 @@ void fr_lparse_skip_line(FrLparser *parser);
 
 // ---- parse_expression.c -----------------------------------------------------------------------
 
+/// The indices of an array, whose values are left on the stack; how many. `begin`: of its name.
+uint32_t fr_lparse_indices(FrLparser *parser, uint32_t array, size_t begin);
 /// The next character of an expression, '\\0' at the end. cpfg reads over `\` there, which long
 /// macros leave behind.
 char fr_lparse_peek_value(FrLparser *parser);

@@ -195,8 +195,7 @@ static uint32_t read_arguments(FrLparser *parser) {
     return count;
 }
 
-/// The indices of an array, whose values are left on the stack; how many.
-static uint32_t read_indices(FrLparser *parser, uint32_t array, size_t begin) {
+uint32_t fr_lparse_indices(FrLparser *parser, uint32_t array, size_t begin) {
     uint32_t count = 0;
     while (!parser->has_failed && fr_lparse_accept(parser, "[")) {
         fr_lparse_expression(parser);
@@ -212,7 +211,7 @@ static uint32_t read_indices(FrLparser *parser, uint32_t array, size_t begin) {
 }
 
 static void read_index(FrLparser *parser, uint32_t array, size_t begin) {
-    uint32_t count = read_indices(parser, array, begin);
+    uint32_t count = fr_lparse_indices(parser, array, begin);
     fr_lparse_emit(parser, FR_LOP_INDEX, array, count, 0, begin);
 }
 
@@ -235,7 +234,7 @@ static void read_target(FrLparser *parser) {
     } else {
         // Its indices once to store, once for the value it has.
         size_t indices = parser->at;
-        uint32_t count = read_indices(parser, array, begin);
+        uint32_t count = fr_lparse_indices(parser, array, begin);
         parser->at = indices;
         read_index(parser, array, begin);
         fr_lparse_emit(parser, FR_LOP_SCAN_NEXT, 0, 0, 0, begin);

@@ -98,16 +98,7 @@ static void read_assignment(FrLparser *parser) {
     // Known from here on: its own value may stand behind the '='.
     uint32_t variable = array == FR_NONE ? fr_lparse_variable(parser, name, true, begin) : FR_NONE;
     if (array != FR_NONE) {
-        while (!parser->has_failed && fr_lparse_accept(parser, "[")) {
-            fr_lparse_expression(parser);
-            fr_lparse_expect(parser, "]");
-            count++;
-        }
-        uint32_t wanted = g_array_index(parser->system->arrays, FrLarray, array).dimension_count;
-        if (count != wanted) {
-            fr_lparse_error(parser, begin, parser->at, "argument-count",
-                            "this array has %u dimensions, here are %u", wanted, count);
-        }
+        count = fr_lparse_indices(parser, array, begin);
     }
     fr_lparse_expect(parser, "=");
     fr_lparse_expression(parser);

@@ -86,7 +86,7 @@ static bool is_tip(const FrPlant *plant, uint32_t node) {
 static void place_at_organs(const FrScene *scene, Points *points) {
     double min[3], max[3];
     fr_scene_bounds(scene, min, max);
-    for (guint s = 0; s < scene->stands->len - scene->obstacles; s++) {
+    for (guint s = 0; s < fr_scene_stand_count(scene); s++) {
         const FrStand *stand = &g_array_index(scene->stands, FrStand, s);
         const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, stand->plant).plant;
         for (uint32_t i = 0; i < plant->organs.count; i++) {

@@ -185,7 +185,7 @@ static FrStatus add_solids(const FrEcosystem *ecosystem, World *world, const FrS
         uint32_t plant = g_array_index(ecosystem->plants, uint32_t, i);
         g_hash_table_add(growing, GUINT_TO_POINTER(plant));
     }
-    for (guint i = 0; i < scene->stands->len - scene->obstacles && status == FR_OK; i++) {
+    for (guint i = 0; i < fr_scene_stand_count(scene) && status == FR_OK; i++) {
         const FrStand *stand = &g_array_index(scene->stands, FrStand, i);
         const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, stand->plant).plant;
         if (!g_hash_table_contains(growing, GUINT_TO_POINTER(stand->plant)) && plant != NULL) {

@@ -41,6 +41,14 @@ static char *scene_name(const char *document) {
     return name;
 }
 
+uint32_t fr_scene_plant_count(const FrScene *scene) {
+    return scene->plants->len - scene->obstacles;
+}
+
+uint32_t fr_scene_stand_count(const FrScene *scene) {
+    return scene->stands->len - scene->obstacles;
+}
+
 void fr_scene_free(FrScene *scene) {
     if (scene == NULL) {
         return;
