@@ -163,9 +163,14 @@ static void read_lines(Mtg *mtg, size_t length, const FrContext *context) {
     enum { HEADER, TITLE, ENTITIES } part = HEADER;
     for (size_t begin = 0, next; begin < length && fr_diags_error_count(mtg->diags) < 20;
          begin = next) {
-        size_t end = begin + strcspn(mtg->text + begin, "\r\n");
+        size_t end = begin, blank = begin; // bytes, not words: a file may be long
+        while (end < length && mtg->text[end] != '\r' && mtg->text[end] != '\n') {
+            end++;
+        }
+        while (blank < end && (mtg->text[blank] == ' ' || mtg->text[blank] == '\t')) {
+            blank++;
+        }
         next = end + 1;
-        size_t blank = begin + strspn(mtg->text + begin, " \t");
         if (blank >= end || mtg->text[blank] == '#') {
             continue;
         }
