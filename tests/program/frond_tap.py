@@ -14,6 +14,7 @@ import traceback
 PROGRAM = os.environ["FROND_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["FROND_SOURCE"])
 os.environ.setdefault("FROND_DATA", str(SOURCE / "data"))  # the build may be anywhere
+LIMIT = 900 if "FROND_SANITIZED" in os.environ else 300  # seconds; what takes longer hangs
 EXAMPLES = sorted((SOURCE / "examples").glob("*.frond"))
 
 
@@ -23,7 +24,8 @@ class Skip(Exception):
 
 def run(*arguments, status=0):
     """Runs the program, expects an exit status, returns the finished process."""
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False,
+                          timeout=LIMIT)
     assert done.returncode == status, (
         f"frond {' '.join(map(str, arguments))}: exit {done.returncode}, not {status}\n{done.stderr}")
     return done
