@@ -1,31 +1,16 @@
-#include "studio/viewport.h"
+#include "studio/viewport_private.h"
 
 #include <math.h>
 
-enum { SIGNAL_READY, SIGNAL_CLICKED, SIGNAL_DRAWN, SIGNAL_COUNT };
+static const double rest_seconds = 0.2; // without a move the view rests
 
-static const double rest_seconds = 0.2;  // without a move the view rests
-static const double drag_angle = G_PI;   // for a drag over the whole height
-static const double wheel_factor = 1.12; // of distance, for a notch
-
-struct _StudioViewport {
-    GtkGLArea parent;
-    StudioRenderer *renderer;
-    char *error;
-    StudioCamera camera;
-    StudioDisplay display;
-    bool is_framed; // the first view has been framed
-    bool is_dragging, is_moving, was_done;
-    double drag_x, drag_y;
-    gint64 moved; // when it moved last
-    guint tick;
-};
+enum { SIGNAL_READY, SIGNAL_DRAWN, SIGNAL_COUNT };
 
 static guint signals[SIGNAL_COUNT];
 
 G_DEFINE_TYPE(StudioViewport, studio_viewport, GTK_TYPE_GL_AREA)
 
-static double aspect_of(StudioViewport *viewport) {
+double studio_viewport_aspect(StudioViewport *viewport) {
     int width = gtk_widget_get_width(GTK_WIDGET(viewport));
     int height = gtk_widget_get_height(GTK_WIDGET(viewport));
     return width > 0 && height > 0 ? (double)width / height : 1;
@@ -50,6 +35,12 @@ static void on_realize(GtkGLArea *area, gpointer data) {
         gtk_gl_area_set_error(area, error);
         g_error_free(error);
         return;
+    }
+    GHashTableIter layers;
+    gpointer name, overlay;
+    g_hash_table_iter_init(&layers, viewport->overlays);
+    while (g_hash_table_iter_next(&layers, &name, &overlay)) {
+        studio_renderer_set_overlay(viewport->renderer, name, overlay);
     }
     g_signal_emit(viewport, signals[SIGNAL_READY], 0);
 }
@@ -78,8 +69,7 @@ static gboolean on_tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data) 
     return G_SOURCE_CONTINUE;
 }
 
-// Something is to be drawn, perhaps in several frames.
-static void wake(StudioViewport *viewport) {
+void studio_viewport_wake(StudioViewport *viewport) {
     if (viewport->tick == 0) {
         viewport->tick = gtk_widget_add_tick_callback(GTK_WIDGET(viewport), on_tick, NULL, NULL);
     }
@@ -92,7 +82,7 @@ static void on_resize(GtkGLArea *area, int width, int height, gpointer data) {
     StudioViewport *viewport = STUDIO_VIEWPORT(area);
     if (viewport->renderer != NULL) {
         studio_renderer_resize(viewport->renderer, width, height);
-        wake(viewport);
+        studio_viewport_wake(viewport);
     }
 }
 
@@ -103,6 +93,7 @@ static gboolean on_render(GtkGLArea *area, GdkGLContext *context, gpointer data)
     if (viewport->renderer == NULL) {
         return FALSE;
     }
+    viewport->display.scale = gtk_widget_get_scale_factor(GTK_WIDGET(area));
     viewport->display.cell = studio_camera_step(&viewport->camera, 0.1);
     bool has_more = studio_renderer_draw(viewport->renderer, &viewport->camera, &viewport->display,
                                          viewport->is_moving);
@@ -115,155 +106,6 @@ static gboolean on_render(GtkGLArea *area, GdkGLContext *context, gpointer data)
         g_signal_emit(viewport, signals[SIGNAL_DRAWN], 0);
     }
     return TRUE;
-}
-
-// ---- moving ------------------------------------------------------------------------------------
-
-static void moved(StudioViewport *viewport) {
-    viewport->is_moving = true;
-    viewport->moved = g_get_monotonic_time();
-    if (viewport->renderer != NULL) {
-        studio_renderer_invalidate(viewport->renderer, false);
-    }
-    wake(viewport);
-}
-
-static bool is_pan(GtkGesture *gesture) {
-    guint button = gtk_gesture_single_get_current_button(GTK_GESTURE_SINGLE(gesture));
-    GdkModifierType state =
-        gtk_event_controller_get_current_event_state(GTK_EVENT_CONTROLLER(gesture));
-    return button != GDK_BUTTON_PRIMARY || (state & GDK_SHIFT_MASK) != 0;
-}
-
-static void on_drag_begin(GtkGestureDrag *gesture, double x, double y, StudioViewport *viewport) {
-    (void)gesture;
-    (void)x;
-    (void)y;
-    viewport->drag_x = viewport->drag_y = 0;
-    gtk_widget_grab_focus(GTK_WIDGET(viewport));
-}
-
-static void on_drag_update(GtkGestureDrag *gesture, double x, double y, StudioViewport *viewport) {
-    double height = gtk_widget_get_height(GTK_WIDGET(viewport));
-    if (!viewport->is_dragging && hypot(x, y) < 4) {
-        return; // a click that trembles
-    }
-    viewport->is_dragging = true;
-    double right = (x - viewport->drag_x) / height, down = (y - viewport->drag_y) / height;
-    viewport->drag_x = x;
-    viewport->drag_y = y;
-    if (is_pan(GTK_GESTURE(gesture))) {
-        studio_camera_pan(&viewport->camera, -right, down);
-    } else {
-        studio_camera_orbit(&viewport->camera, -right * drag_angle, down * drag_angle);
-    }
-    moved(viewport);
-}
-
-static void on_drag_end(GtkGestureDrag *gesture, double x, double y, StudioViewport *viewport) {
-    bool was_dragging = viewport->is_dragging;
-    viewport->is_dragging = false;
-    if (was_dragging) {
-        moved(viewport);
-        return;
-    }
-    double from_x, from_y;
-    (void)x;
-    (void)y;
-    if (gtk_gesture_single_get_current_button(GTK_GESTURE_SINGLE(gesture)) == GDK_BUTTON_PRIMARY &&
-        gtk_gesture_drag_get_start_point(gesture, &from_x, &from_y)) {
-        g_signal_emit(viewport, signals[SIGNAL_CLICKED], 0,
-                      2 * from_x / gtk_widget_get_width(GTK_WIDGET(viewport)) - 1,
-                      1 - 2 * from_y / gtk_widget_get_height(GTK_WIDGET(viewport)));
-    }
-}
-
-static gboolean on_scroll(GtkEventControllerScroll *scroll, double x, double y,
-                          StudioViewport *viewport) {
-    (void)scroll;
-    (void)x;
-    studio_camera_zoom(&viewport->camera, pow(wheel_factor, y));
-    moved(viewport);
-    return TRUE;
-}
-
-static void on_pinch(GtkGestureZoom *gesture, double scale, StudioViewport *viewport) {
-    (void)gesture;
-    static const char key[] = "last-scale";
-    double *last = g_object_get_data(G_OBJECT(gesture), key);
-    if (last == NULL) {
-        last = g_new(double, 1);
-        *last = 1;
-        g_object_set_data_full(G_OBJECT(gesture), key, last, g_free);
-    }
-    studio_camera_zoom(&viewport->camera, *last / fmax(scale, 0.01));
-    *last = scale;
-    moved(viewport);
-}
-
-static void on_pinch_begin(GtkGesture *gesture, GdkEventSequence *sequence, gpointer data) {
-    (void)sequence;
-    (void)data;
-    g_object_set_data(G_OBJECT(gesture), "last-scale", NULL);
-}
-
-static gboolean on_key(GtkEventControllerKey *controller, guint key, guint code,
-                       GdkModifierType state, StudioViewport *viewport) {
-    (void)controller;
-    (void)code;
-    const double step = 5 * G_PI / 180;
-    static const struct {
-        guint key;
-        const char *action;
-    } letters[] = {{GDK_KEY_f, "win.frame"},
-                   {GDK_KEY_1, "win.mode::shaded"},
-                   {GDK_KEY_2, "win.mode::wireframe"},
-                   {GDK_KEY_3, "win.mode::skeleton"}};
-    for (size_t i = 0; i < G_N_ELEMENTS(letters); i++) {
-        if (key == letters[i].key && (state & (GDK_CONTROL_MASK | GDK_ALT_MASK)) == 0) {
-            char *name;
-            GVariant *target;
-            g_action_parse_detailed_name(letters[i].action, &name, &target, NULL);
-            gtk_widget_activate_action_variant(GTK_WIDGET(viewport), name, target);
-            g_clear_pointer(&target, g_variant_unref);
-            g_free(name);
-            return TRUE;
-        }
-    }
-    bool is_pan = (state & GDK_SHIFT_MASK) != 0;
-    double right = key == GDK_KEY_Right ? 1 : key == GDK_KEY_Left ? -1 : 0;
-    double up = key == GDK_KEY_Up ? 1 : key == GDK_KEY_Down ? -1 : 0;
-    if ((right == 0 && up == 0) || (state & (GDK_CONTROL_MASK | GDK_ALT_MASK)) != 0) {
-        return FALSE;
-    }
-    if (is_pan) {
-        studio_camera_pan(&viewport->camera, 0.04 * right, 0.04 * up);
-    } else {
-        studio_camera_orbit(&viewport->camera, right * step, up * step);
-    }
-    moved(viewport);
-    return TRUE;
-}
-
-static void add_controllers(StudioViewport *viewport) {
-    GtkWidget *widget = GTK_WIDGET(viewport);
-    GtkGesture *drag = gtk_gesture_drag_new();
-    gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(drag), 0);
-    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_drag_begin), viewport);
-    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag_update), viewport);
-    g_signal_connect(drag, "drag-end", G_CALLBACK(on_drag_end), viewport);
-    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(drag));
-    GtkEventController *scroll =
-        gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
-    g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), viewport);
-    gtk_widget_add_controller(widget, scroll);
-    GtkGesture *pinch = gtk_gesture_zoom_new();
-    g_signal_connect(pinch, "begin", G_CALLBACK(on_pinch_begin), NULL);
-    g_signal_connect(pinch, "scale-changed", G_CALLBACK(on_pinch), viewport);
-    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(pinch));
-    GtkEventController *keys = gtk_event_controller_key_new();
-    g_signal_connect(keys, "key-pressed", G_CALLBACK(on_key), viewport);
-    gtk_widget_add_controller(widget, keys);
 }
 
 // ---- what it shows -----------------------------------------------------------------------------
@@ -290,14 +132,14 @@ void studio_viewport_take(StudioViewport *viewport, const StudioView *view) {
             studio_viewport_see(viewport, g_ptr_array_index(view->scene->views, 0));
         }
     }
-    wake(viewport);
+    studio_viewport_wake(viewport);
 }
 
 void studio_viewport_add_picture(StudioViewport *viewport, const StudioPicture *picture) {
     gtk_gl_area_make_current(GTK_GL_AREA(viewport));
     studio_store_add_picture(studio_renderer_store(viewport->renderer), picture);
     studio_renderer_invalidate(viewport->renderer, true);
-    wake(viewport);
+    studio_viewport_wake(viewport);
 }
 
 void studio_viewport_forget(StudioViewport *viewport) {
@@ -312,7 +154,7 @@ StudioDisplay *studio_viewport_display(StudioViewport *viewport) {
 void studio_viewport_update(StudioViewport *viewport) {
     if (viewport->renderer != NULL) {
         studio_renderer_invalidate(viewport->renderer, false);
-        wake(viewport);
+        studio_viewport_wake(viewport);
     }
 }
 
@@ -321,7 +163,7 @@ StudioCamera *studio_viewport_camera(StudioViewport *viewport) {
 }
 
 void studio_viewport_frame(StudioViewport *viewport, const double min[3], const double max[3]) {
-    studio_camera_frame(&viewport->camera, min, max, aspect_of(viewport));
+    studio_camera_frame(&viewport->camera, min, max, studio_viewport_aspect(viewport));
     studio_viewport_update(viewport);
 }
 
@@ -336,22 +178,39 @@ void studio_viewport_frame_all(StudioViewport *viewport) {
 void studio_viewport_see(StudioViewport *viewport, const FrViewParams *view) {
     double min[3], max[3];
     studio_store_bounds(studio_renderer_store(viewport->renderer), min, max);
-    studio_camera_see(&viewport->camera, view, min, max, aspect_of(viewport));
+    studio_camera_see(&viewport->camera, view, min, max, studio_viewport_aspect(viewport));
     studio_viewport_update(viewport);
 }
 
-void studio_viewport_move(StudioViewport *viewport, double azimuth, double elevation, double zoom) {
-    studio_camera_orbit(&viewport->camera, azimuth, elevation);
-    studio_camera_zoom(&viewport->camera, zoom);
-    moved(viewport);
+void studio_viewport_set_overlay(StudioViewport *viewport, const char *name,
+                                 StudioOverlay *overlay) {
+    bool is_change = overlay != NULL || g_hash_table_contains(viewport->overlays, name);
+    if (overlay == NULL) {
+        g_hash_table_remove(viewport->overlays, name);
+    } else {
+        g_hash_table_replace(viewport->overlays, g_strdup(name), overlay);
+    }
+    if (is_change && viewport->renderer != NULL) {
+        gtk_gl_area_make_current(GTK_GL_AREA(viewport));
+        studio_renderer_set_overlay(viewport->renderer, name, overlay);
+        studio_viewport_wake(viewport);
+    }
 }
 
 void studio_viewport_highlight(StudioViewport *viewport, const float (*points)[3], uint32_t count) {
-    if (viewport->renderer != NULL) {
-        gtk_gl_area_make_current(GTK_GL_AREA(viewport));
-        studio_renderer_highlight(viewport->renderer, points, count);
-        studio_viewport_update(viewport);
+    static const float paint[4] = {1.0f, 0.62f, 0.13f, 1.0f};
+    StudioOverlay *overlay = count == 0 ? NULL : studio_overlay_new();
+    for (uint32_t i = 0; i + 1 < count; i += 2) {
+        double ends[2][3];
+        for (int k = 0; k < 6; k++) {
+            ends[k / 3][k % 3] = (double)points[i + (uint32_t)k / 3][k % 3];
+        }
+        studio_overlay_line(overlay, ends[0], ends[1], 3, paint);
     }
+    if (overlay != NULL) {
+        overlay->through = 1;
+    }
+    studio_viewport_set_overlay(viewport, "picked", overlay);
 }
 
 bool studio_viewport_is_done(StudioViewport *viewport) {
@@ -372,6 +231,7 @@ StudioAmount studio_viewport_amount(StudioViewport *viewport) {
 
 static void studio_viewport_finalize(GObject *object) {
     g_free(STUDIO_VIEWPORT(object)->error);
+    g_hash_table_unref(STUDIO_VIEWPORT(object)->overlays);
     G_OBJECT_CLASS(studio_viewport_parent_class)->finalize(object);
 }
 
@@ -381,15 +241,16 @@ static void studio_viewport_class_init(StudioViewportClass *class) {
     GType type = G_TYPE_FROM_CLASS(class);
     signals[SIGNAL_READY] =
         g_signal_new("ready", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
-    signals[SIGNAL_CLICKED] = g_signal_new("clicked", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
-                                           G_TYPE_NONE, 2, G_TYPE_DOUBLE, G_TYPE_DOUBLE);
     signals[SIGNAL_DRAWN] =
         g_signal_new("drawn", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+    studio_viewport_add_signals(type);
 }
 
 static void studio_viewport_init(StudioViewport *viewport) {
     GtkGLArea *area = GTK_GL_AREA(viewport);
     viewport->camera = studio_camera_default();
+    viewport->overlays =
+        g_hash_table_new_full(g_str_hash, g_str_equal, g_free, (GDestroyNotify)studio_overlay_free);
     viewport->display = (StudioDisplay){.mode = STUDIO_SHADED,
                                         .has_shadow = true,
                                         .has_occlusion = true,
@@ -404,7 +265,7 @@ static void studio_viewport_init(StudioViewport *viewport) {
     g_signal_connect(area, "unrealize", G_CALLBACK(on_unrealize), NULL);
     g_signal_connect(area, "resize", G_CALLBACK(on_resize), NULL);
     g_signal_connect(area, "render", G_CALLBACK(on_render), NULL);
-    add_controllers(viewport);
+    studio_viewport_add_controllers(viewport);
 }
 
 GtkWidget *studio_viewport_new(void) {

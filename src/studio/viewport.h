@@ -13,6 +13,12 @@ G_DECLARE_FINAL_TYPE(StudioViewport, studio_viewport, STUDIO, VIEWPORT, GtkGLAre
 ///   "ready" ()                 it can take views now
 ///   "clicked" (double x, y)    a point of the picture was clicked, in −1 to 1
 ///   "drawn" ()                 the fine picture is done
+///   "press" (double x, double y, guint modifiers) → gboolean
+///                              the main button goes down; the first handler that returns TRUE
+///                              gets what follows, and the view does not turn:
+///   "drag" (double x, double y, guint modifiers)     moved with the button held
+///   "release" (double x, double y, gboolean moved)   up again; whether there was a drag
+///   "hover" (double x, double y)                     the pointer moves with no button held
 
 GtkWidget *studio_viewport_new(void);
 /// Whether views can be taken: it has a context of OpenGL.
@@ -35,7 +41,14 @@ void studio_viewport_frame(StudioViewport *viewport, const double min[3], const 
 void studio_viewport_see(StudioViewport *viewport, const FrViewParams *view);
 /// Goes by the given part of its height or by angles, as the pointer does.
 void studio_viewport_move(StudioViewport *viewport, double azimuth, double elevation, double zoom);
+/// The overlay of that name becomes this, which is the viewport's from then on; NULL: it goes.
+/// Layers are drawn in the order of their names. The picture below is not drawn again.
+void studio_viewport_set_overlay(StudioViewport *viewport, const char *name,
+                                 StudioOverlay *overlay);
+/// Marks lines, pairs of points, as what was picked: the overlay "picked".
 void studio_viewport_highlight(StudioViewport *viewport, const float (*points)[3], uint32_t count);
+/// Width over height of the picture.
+double studio_viewport_aspect(StudioViewport *viewport);
 /// Whether the fine picture of what it holds is shown.
 bool studio_viewport_is_done(StudioViewport *viewport);
 StudioPace studio_viewport_pace(StudioViewport *viewport);

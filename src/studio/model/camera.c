@@ -134,3 +134,22 @@ double studio_camera_step(const StudioCamera *camera, double part) {
     double rest = wanted / power;
     return power * (rest >= 5 ? 5 : rest >= 2 ? 2 : 1);
 }
+
+bool studio_camera_project(const StudioCamera *camera, double aspect, const double point[3],
+                           double *x, double *y) {
+    double right[3], up[3], back[3], eye[3], at[3] = {0, 0, 0};
+    axes_of(camera, right, up, back);
+    studio_camera_eye(camera, eye);
+    for (int i = 0; i < 3; i++) {
+        at[0] += (point[i] - eye[i]) * right[i];
+        at[1] += (point[i] - eye[i]) * up[i];
+        at[2] -= (point[i] - eye[i]) * back[i];
+    }
+    if (!(at[2] > 0)) {
+        return false;
+    }
+    double half = at[2] * tan(0.5 * camera->field_of_view);
+    *x = at[0] / (half * aspect);
+    *y = at[1] / half;
+    return true;
+}

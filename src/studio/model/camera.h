@@ -35,5 +35,8 @@ mat4s studio_camera_projection(const StudioCamera *camera, double aspect, double
 /// The ray through a point of the picture: x from −1 at the left to 1, y from −1 at the bottom.
 void studio_camera_ray(const StudioCamera *camera, double aspect, double x, double y,
                        double origin[3], double direction[3]);
+/// Where a point is in the picture, as in studio_camera_ray(). False: it is not before the camera.
+bool studio_camera_project(const StudioCamera *camera, double aspect, const double point[3],
+                           double *x, double *y);
 /// A step of 1, 2 or 5 times a power of ten that is about `part` of the height of the picture.
 double studio_camera_step(const StudioCamera *camera, double part);

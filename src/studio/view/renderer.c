@@ -1,5 +1,6 @@
 #include "studio/view/renderer.h"
 
+#include "studio/view/overlays.h"
 #include "studio/view/program.h"
 #include "studio/view/shaders.h"
 #include "studio/view/target.h"
@@ -33,8 +34,7 @@ struct StudioRenderer {
     guint next;     // slice
     double fine_began, fine_spent;
     mat4s to_shadow;
-    GLuint highlight;
-    uint32_t highlight_count;
+    StudioOverlays *overlays;
     StudioPace pace;
 };
 
@@ -73,8 +73,12 @@ StudioRenderer *studio_renderer_new(GError **error) {
             return NULL;
         }
     }
+    renderer->overlays = studio_overlays_new(error);
+    if (renderer->overlays == NULL) {
+        studio_renderer_free(renderer);
+        return NULL;
+    }
     glGenVertexArrays(1, &renderer->array);
-    glGenBuffers(1, &renderer->highlight);
     renderer->store = studio_store_new();
     renderer->budget = 40000;
     renderer->is_shadow_old = true;
@@ -88,13 +92,13 @@ void studio_renderer_free(StudioRenderer *renderer) {
         return;
     }
     studio_store_free(renderer->store);
+    studio_overlays_free(renderer->overlays);
     const GLuint programs[] = {renderer->surface, renderer->shadow,   renderer->floor,
                                renderer->line,    renderer->backdrop, renderer->show};
     for (size_t i = 0; i < G_N_ELEMENTS(programs); i++) {
         glDeleteProgram(programs[i]);
     }
     glDeleteVertexArrays(1, &renderer->array);
-    glDeleteBuffers(1, &renderer->highlight);
     studio_target_clear(&renderer->coarse);
     studio_target_clear(&renderer->fine);
     studio_target_clear(&renderer->shadow_map);
@@ -104,6 +108,11 @@ void studio_renderer_free(StudioRenderer *renderer) {
 
 StudioStore *studio_renderer_store(StudioRenderer *renderer) {
     return renderer->store;
+}
+
+void studio_renderer_set_overlay(StudioRenderer *renderer, const char *name,
+                                 const StudioOverlay *overlay) {
+    studio_overlays_set(renderer->overlays, name, overlay);
 }
 
 StudioPace studio_renderer_pace(const StudioRenderer *renderer) {
@@ -122,12 +131,6 @@ void studio_renderer_invalidate(StudioRenderer *renderer, bool is_geometry) {
     renderer->stage = STAGE_NOTHING;
     renderer->is_coarse_old = true;
     renderer->is_shadow_old = renderer->is_shadow_old || is_geometry;
-}
-
-void studio_renderer_highlight(StudioRenderer *renderer, const float (*points)[3], uint32_t count) {
-    glBindBuffer(GL_ARRAY_BUFFER, renderer->highlight);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *points), points, GL_STATIC_DRAW);
-    renderer->highlight_count = count;
 }
 
 // ---- pieces ------------------------------------------------------------------------------------
@@ -250,34 +253,10 @@ static void draw_skeleton(void *user, const mat4s *model, GLuint points, uint32_
 }
 
 static void draw_skeletons(Shot *shot) {
-    static const float by_order[4] = {0};
     GLuint program = shot->renderer->line;
     glUseProgram(program);
     studio_program_matrix(program, "clip", &shot->clip);
-    studio_program_vec4(program, "paint", by_order);
     studio_store_each_skeleton(shot->renderer->store, draw_skeleton, shot);
-}
-
-static void draw_highlight(const Shot *shot) {
-    static const float paint[4] = {1.0f, 0.62f, 0.13f, 1.0f};
-    if (shot->renderer->highlight_count == 0) {
-        return;
-    }
-    GLuint program = shot->renderer->line;
-    mat4s model = GLMS_MAT4_IDENTITY;
-    glUseProgram(program);
-    studio_program_matrix(program, "clip", &shot->clip);
-    studio_program_matrix(program, "model", &model);
-    studio_program_vec4(program, "paint", paint);
-    glBindBuffer(GL_ARRAY_BUFFER, shot->renderer->highlight);
-    attribute(0, 3, 3 * sizeof(float), 0, 0);
-    glDisableVertexAttribArray(1);
-    glVertexAttrib1f(1, 0);
-    glDisable(GL_DEPTH_TEST);
-    glLineWidth(3);
-    glDrawArrays(GL_LINES, 0, (GLsizei)shot->renderer->highlight_count);
-    glLineWidth(1);
-    glEnable(GL_DEPTH_TEST);
 }
 
 // ---- pictures ----------------------------------------------------------------------------------
@@ -316,7 +295,6 @@ static void draw_coarse(StudioRenderer *renderer, Shot *shot, const StudioCamera
         glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
         g_array_unref(list);
     }
-    draw_highlight(shot);
     glFinish();
     double seconds = now() - began;
     renderer->pace.coarse_seconds = seconds;
@@ -380,7 +358,6 @@ static void end_fine(StudioRenderer *renderer, Shot *shot) {
     if (shot->display->mode == STUDIO_SKELETON) {
         draw_skeletons(shot);
     }
-    draw_highlight(shot);
     renderer->stage = STAGE_DONE;
     renderer->pace.fine_seconds = renderer->fine_spent;
     renderer->pace.fine_triangles = 0;
@@ -456,6 +433,14 @@ static void show(const Shot *shot, const StudioTarget *target, GLuint frame, boo
     studio_program_float(program, "reach", shot->reach);
     studio_program_int(program, "has_occlusion", has_occlusion);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    StudioUnder under = {.clip = shot->clip,
+                         .depths = target->depth,
+                         .near = shot->near,
+                         .far = shot->far,
+                         .width = shot->renderer->width,
+                         .height = shot->renderer->height,
+                         .scale = (float)shot->display->scale};
+    studio_overlays_draw(shot->renderer->overlays, &under);
 }
 
 static Shot shot_of(const StudioRenderer *renderer, const StudioCamera *camera,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "studio/model/camera.h"
+#include "studio/model/overlay.h"
 #include "studio/view/store.h"
 
 typedef struct StudioRenderer StudioRenderer;
@@ -15,7 +16,8 @@ typedef struct StudioDisplay {
     StudioMode mode;
     bool has_shadow, has_occlusion, has_grid;
     bool is_dark;
-    double cell; ///< m, of the grid
+    double cell;  ///< m, of the grid
+    double scale; ///< pixels of the framebuffer for one of the desktop's
 } StudioDisplay;
 
 /// What drawing took; the last of each.
@@ -29,10 +31,12 @@ StudioRenderer *studio_renderer_new(GError **error);
 void studio_renderer_free(StudioRenderer *renderer);
 StudioStore *studio_renderer_store(StudioRenderer *renderer);
 void studio_renderer_resize(StudioRenderer *renderer, int width, int height);
-/// The camera, the display or the highlight has changed; with `is_geometry` what stands there, too.
+/// The camera or the display has changed; with `is_geometry` what stands there, too.
 void studio_renderer_invalidate(StudioRenderer *renderer, bool is_geometry);
-/// Lines that are drawn over everything: pairs of points, in the scene's coordinates.
-void studio_renderer_highlight(StudioRenderer *renderer, const float (*points)[3], uint32_t count);
+/// The overlay of that name is this one, which stays the caller's; NULL: there is none any more.
+/// The pictures of the plants stay as they are.
+void studio_renderer_set_overlay(StudioRenderer *renderer, const char *name,
+                                 const StudioOverlay *overlay);
 /// Draws to the framebuffer that is bound. True if the fine picture is not done yet: call again.
 bool studio_renderer_draw(StudioRenderer *renderer, const StudioCamera *camera,
                           const StudioDisplay *display, bool is_moving);

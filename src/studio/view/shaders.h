@@ -112,15 +112,15 @@ static const char studio_floor_fragment[] =
     "    colour = vec4(c, fade * 0.85);\n"
     "}\n";
 
-/// Lines: the skeleton by order, or one colour.
+/// The lines of the skeleton, by order.
 static const char studio_line_vertex[] =
     "#version 330 core\n"
     "layout(location=0) in vec3 position; layout(location=1) in float order;\n"
-    "uniform mat4 model, clip; uniform vec4 paint; out vec4 shown;\n"
+    "uniform mat4 model, clip; out vec4 shown;\n"
     "void main() {\n"
     "    float t = clamp(order / 4.0, 0.0, 1.0);\n"
     "    vec3 by_order = mix(vec3(0.93, 0.78, 0.55), vec3(0.45, 0.80, 0.42), t);\n"
-    "    shown = paint.a > 0.0 ? paint : vec4(by_order, 1.0);\n"
+    "    shown = vec4(by_order, 1.0);\n"
     "    gl_Position = clip * model * vec4(position, 1.0);\n"
     "}\n";
 static const char studio_line_fragment[] =
