@@ -79,8 +79,8 @@ typedef struct Meshing {
 static void mesh(void *data) {
     Meshing *meshing = data;
     FrMesh *made;
-    FrStatus status =
-        fr_nurbs_mesh(meshing->plant, &meshing->params, 0, FR_UP_Z, &meshing->context, &made);
+    FrStatus status = fr_nurbs_mesh(meshing->plant, &meshing->params, 0, FR_UP_Z, (FrSpan){0},
+                                    &meshing->context, &made);
     FR_ASSERT(status == FR_OK);
     meshing->vertices = made->vertex_count;
     meshing->triangles = made->index_count / 3;

@@ -86,6 +86,7 @@ typedef struct FrPlantDef {
     FrVary *vary;   ///< for FR_PLANT_VARIED, else NULL; its `base` is the id of the other plant
     bool has_nurbs; ///< it has a `<nurbs>`: it is shown as rational surfaces …
     FrNurbsParams nurbs; ///< … with these settings, else with the usual ones
+    FrSpan nurbs_span;   ///< of its name
     FrSpan span;
 } FrPlantDef;
 

@@ -62,7 +62,8 @@ typedef enum FrNurbsFrames {
     X(REAL, turn, "30", 1, 90, "deg", "", "wanted turn from one row of triangles to the next")     \
     X(REAL, thickness, "0", 0, 10, "m", "", "of the triangles of blades; 0: open sheets")          \
     X(REAL, voxel, "0", 0, 1000, "m", "",                                                          \
-      "make one watertight solid of all that is closed, on a lattice of this width; 0: do not")
+      "make one watertight solid of all that is closed, on a lattice of this width, at most half " \
+      "of what is thinnest; 0: do not")
 
 #define FR_NURBS_STEP_PARAMS(X)                                                                    \
     X(CHOICE, step, "ap214", 0, 0, "", "ap214 ap203", "application protocol of STEP files")        \
@@ -152,10 +153,11 @@ FR_API uint64_t fr_nurbs_skin_surfaces(const FrNurbsSkin *skin);
 /// leave it as it is.
 FR_API FrPlant *fr_nurbs_posed(const FrPlant *plant, const FrNurbsParams *params);
 /// The triangles of a plant's surfaces, in parts like those of fr_skin_plant(): tubes and their
-/// caps, and the halves of a blade, share their rims. `lod` as there.
+/// caps, and the halves of a blade, share their rims. `lod` as there; `span` is where the settings
+/// are written. FR_ERR_DOCUMENT if `voxel` leaves nothing of what there is.
 FR_API FR_MUST_USE FrStatus fr_nurbs_mesh(const FrPlant *plant, const FrNurbsParams *params,
-                                          int lod, FrUpAxis up, const FrContext *context,
-                                          FrMesh **mesh);
+                                          int lod, FrUpAxis up, FrSpan span,
+                                          const FrContext *context, FrMesh **mesh);
 FR_API void fr_nurbs_skin_free(FrNurbsSkin *skin);
 /// Bytes of all arrays.
 FR_API uint64_t fr_nurbs_skin_bytes(const FrNurbsSkin *skin);

@@ -16,6 +16,7 @@ typedef struct FrScenePlant {
     FrLdrawn drawn;         ///< by its turtle
     bool has_nurbs;         ///< it is shown as rational surfaces …
     FrNurbsParams nurbs;    ///< … with these settings, at the time of its clock
+    FrSpan nurbs_span;      ///< where they are written
 } FrScenePlant;
 
 typedef struct FrStand {
@@ -102,6 +103,7 @@ FR_API void fr_scene_free(FrScene *scene);
 /// How many plants and stands of plants there are: those of obstacles come behind them.
 FR_API uint32_t fr_scene_plant_count(const FrScene *scene);
 FR_API uint32_t fr_scene_stand_count(const FrScene *scene);
+/// Of plants, how they are shown as surfaces, and where they stand.
 FR_API FrDigest fr_scene_digest(const FrScene *scene);
 /// The triangles of a plant as it is shown: its skin, or those of its rational surfaces.
 FR_API FR_MUST_USE FrStatus fr_scene_mesh(const FrScenePlant *plant, const FrSkinParams *skin,

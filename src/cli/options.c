@@ -282,7 +282,7 @@ static const OptionRow rows[] = {
     {"lod", 0, "N", MAKING, "level of detail: 0 finest, to 8", take_lod},
     {"leaves", 0, "HOW", CLI_BUILD | CLI_VARY, "in glTF: merged (default), nodes, gpu",
      take_leaves},
-    {"nurbs", 0, "NAME=VALUE", CLI_BUILD | CLI_RENDER,
+    {"nurbs", 0, "NAME=VALUE", MAKING,
      "plants as rational surfaces, like circle=nine; the names of <nurbs>", take_nurbs},
     {"time", 0, "YEARS", CLI_BUILD | CLI_RENDER | CLI_INFO | CLI_VARY,
      "what the clocks of all plants show", take_time},

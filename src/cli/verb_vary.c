@@ -204,6 +204,8 @@ FrStatus cli_vary(CliSession *session) {
         session->build_seconds += cli_now() - began;
     }
     if (status == FR_OK) {
+        FrNurbsParams plain = fr_nurbs_default();
+        cli_nurbs_apply(options, scene, &plain);
         status = write_all(session, path, scene);
     }
     fr_scene_free(scene);

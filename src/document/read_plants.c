@@ -88,6 +88,7 @@ static void read_nurbs(FrReader *reader, uint32_t node, FrPlantDef *plant) {
     uint32_t nurbs = fr_read_first(reader, node, FR_ELEMENT_NURBS);
     if (nurbs != FR_NONE) {
         plant->has_nurbs = true;
+        plant->nurbs_span = fr_xml_span(reader->tree, reader->tree->nodes[nurbs].name);
         fr_read_check_children(reader, nurbs, FR_ELEMENT_NURBS);
         fr_read_attributes(reader, nurbs, FR_ELEMENT_NURBS, &plant->nurbs);
     }

@@ -268,11 +268,12 @@ static void warn_of_open(const FrThreeMf *file) {
     for (uint32_t p = 0; p < file->meshes.length; p++) {
         uint64_t open = is_there(file, p) ? fr_mesh_open_edges(file->meshes.meshes[p], NULL) : 0;
         if (open > 0) {
-            fr_diags_add(file->context->diags, FR_WARNING, "not-closed", (FrSpan){0},
-                         "the surface of '%s' is open at %" G_GUINT64_FORMAT
-                         " edges; printers want it closed: --nurbs thickness=0.001 gives blades a "
-                         "thickness, voxel=0.002 makes one solid",
-                         fr_io_plant(file->scene, p)->name, open);
+            fr_diags_add(
+                file->context->diags, FR_WARNING, "not-closed", (FrSpan){0},
+                "the surface of '%s' is open at %" G_GUINT64_FORMAT
+                " edges; printers want it closed: --nurbs caps=yes closes tubes, "
+                "thickness=0.004 blades, and voxel=0.002 makes one solid of what is closed",
+                fr_io_plant(file->scene, p)->name, open);
         }
     }
 }

@@ -120,6 +120,9 @@ static Show *show_new(FrRebuild *rebuild, const FrDocument *document, int64_t se
     if (*status == FR_OK) {
         show->scene->params = &show->params;
         show->scene->surroundings = &show->surroundings;
+        for (guint i = 0; i < show->scene->plants->len; i++) { // places of the document's text
+            g_array_index(show->scene->plants, FrScenePlant, i).nurbs_span = (FrSpan){0};
+        }
     }
     g_array_unref(parts.parts);
     return show;

@@ -452,8 +452,9 @@ FrStatus fr_scene_build(const FrDocument *document, int64_t seed, const FrContex
 FrDigest fr_scene_digest(const FrScene *scene) {
     FrDigest digest = 0;
     for (guint i = 0; i < scene->plants->len; i++) {
-        FrDigest plant = fr_plant_digest(g_array_index(scene->plants, FrScenePlant, i).plant);
-        digest = fr_digest(digest, &plant, sizeof plant);
+        const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, i);
+        FrDigest plant = fr_plant_digest(built->plant);
+        digest = fr_rational_digest(fr_digest(digest, &plant, sizeof plant), built);
     }
     for (guint i = 0; i < scene->stands->len; i++) {
         const FrStand *stand = &g_array_index(scene->stands, FrStand, i);

@@ -30,6 +30,12 @@ static inline double fr_unit3(double v[3]) {
     return length;
 }
 
+/// For tables of 64-bit keys: GLib's own hash drops the upper half of a key.
+static inline guint fr_key_hash(gconstpointer key) {
+    uint64_t bits = *(const uint64_t *)key * 0x9e3779b97f4a7c15U;
+    return (guint)(bits >> 32);
+}
+
 // ---- nurbs_section.c: what is swept ------------------------------------------------------------
 
 /// A cross-section that may turn into another along the branch: both have the same knots.

@@ -324,7 +324,7 @@ static FrStatus mesh_skin(FrNurbsMeshing *meshing, const FrContext *context) {
 }
 
 FrStatus fr_nurbs_mesh(const FrPlant *plant, const FrNurbsParams *params, int lod, FrUpAxis up,
-                       const FrContext *context, FrMesh **mesh) {
+                       FrSpan span, const FrContext *context, FrMesh **mesh) {
     *mesh = NULL;
     int workers = fr_pool_threads(context->pool);
     FrNurbsMeshing meshing = {
@@ -344,7 +344,8 @@ FrStatus fr_nurbs_mesh(const FrPlant *plant, const FrNurbsParams *params, int lo
     read_tiles(&meshing);
     status = mesh_skin(&meshing, context);
     if (status == FR_OK && params->voxel > 0.0) {
-        status = fr_solid_of(&meshing.mesh, params->voxel, context);
+        const FrSolidAsk ask = {params, plant->name, span, context};
+        status = fr_solid_of(&meshing.mesh, &ask);
     }
     if (status == FR_OK) {
         *mesh = meshing.mesh;

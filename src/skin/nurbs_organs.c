@@ -71,7 +71,7 @@ static bool is_drawn(const FrNurbsJob *job, uint32_t organ) {
 
 /// Finds which organs have their like.
 static void find_models(FrNurbsJob *job) {
-    GHashTable *index = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
+    GHashTable *index = g_hash_table_new_full(fr_key_hash, g_int64_equal, g_free, NULL);
     for (uint32_t i = 0; i < job->organ_count; i++) {
         job->organs[i].model = FR_NONE;
         if (!may_be_copy(job, i) || !is_drawn(job, i)) {

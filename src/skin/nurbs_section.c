@@ -13,7 +13,7 @@ static void section_clear(gpointer data) {
 void fr_nurbs_sections_init(FrNurbsSections *sections) {
     sections->sections = g_array_new(FALSE, FALSE, sizeof(FrNurbsSection));
     g_array_set_clear_func(sections->sections, section_clear);
-    sections->index = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
+    sections->index = g_hash_table_new_full(fr_key_hash, g_int64_equal, g_free, NULL);
 }
 
 void fr_nurbs_sections_clear(FrNurbsSections *sections) {

@@ -9,6 +9,7 @@
 #include "skin/solid.h"
 
 #include "skin/mesh.h"
+#include "skin/nurbs.h"
 
 #include <math.h>
 #include <string.h>
@@ -245,9 +246,45 @@ static void cut_rows(FrSolid *solid, const FrContext *context) {
 
 // ---- the whole ---------------------------------------------------------------------------------
 
+/// Tells what is no part of the solid, and how it would be.
+static void warn_of_open(const FrSolidAsk *ask) {
+    const FrNurbsParams *params = ask->params;
+    const char *advice = params->forks == FR_FORKS_RAMIFORM
+                             ? "fork surfaces never are, tubes are with 'forks' as 'plain'"
+                         : !params->caps            ? "tubes are with 'caps'"
+                         : !(params->thickness > 0) ? "blades are with a 'thickness'"
+                                                    : "flat shapes and open profiles never are";
+    fr_diags_add(ask->context->diags, FR_WARNING, "not-closed", ask->span,
+                 "'%s': surfaces that are not closed are no part of the solid; %s", ask->plant,
+                 advice);
+}
+
+static void warn_of_thin(const FrSolidAsk *ask) {
+    const FrNurbsParams *params = ask->params;
+    if (params->thickness > 0.0 && params->thickness < params->voxel) {
+        fr_diags_add(ask->context->diags, FR_WARNING, "thinner-than-voxel", ask->span,
+                     "'%s': blades %g m thick fall to pieces on a lattice of %g m; let 'voxel' be "
+                     "at most half of 'thickness'",
+                     ask->plant, params->thickness, params->voxel);
+    }
+}
+
+static FrStatus refuse_nothing(const FrSolidAsk *ask, bool has_closed) {
+    if (has_closed) {
+        fr_diags_add(ask->context->diags, FR_ERROR, "voxel-too-coarse", ask->span,
+                     "'%s': everything falls through a lattice of %g m; let 'voxel' be half of the "
+                     "thinnest that shall stay",
+                     ask->plant, ask->params->voxel);
+    } else {
+        fr_diags_add(ask->context->diags, FR_ERROR, "nothing-closed", ask->span,
+                     "'%s': there is nothing closed to make a solid of", ask->plant);
+    }
+    return FR_ERR_DOCUMENT;
+}
+
 /// Corners of the closed surfaces in cells; answers how many triangles.
 static size_t take_corners(const FrMesh *mesh, FrSolid *solid, double (**corners)[3],
-                           const FrContext *context) {
+                           const FrSolidAsk *ask) {
     size_t triangles = (size_t)(mesh->index_count / 3), taken = 0;
     bool *is_closed = g_new0(bool, triangles + 1);
     uint64_t open = fr_mesh_open_edges(mesh, is_closed);
@@ -264,9 +301,7 @@ static size_t take_corners(const FrMesh *mesh, FrSolid *solid, double (**corners
     }
     g_free(is_closed);
     if (open > 0) {
-        fr_diags_add(context->diags, FR_WARNING, "not-closed", (FrSpan){0},
-                     "surfaces that are not closed are no part of the solid: give blades a "
-                     "'thickness' and tubes their 'caps'");
+        warn_of_open(ask);
     }
     return taken / 3;
 }
@@ -350,7 +385,7 @@ static FrStatus make(FrMesh **mesh, FrSolid *solid, const double (*corners)[3], 
                      const FrContext *context) {
     solid->vertices = g_array_new(FALSE, FALSE, sizeof(FrVertex));
     solid->indices = g_array_new(FALSE, FALSE, sizeof(uint32_t));
-    solid->by_edge = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
+    solid->by_edge = g_hash_table_new_full(fr_key_hash, g_int64_equal, g_free, NULL);
     for (int way = 0; way < FR_SOLID_WAYS; way++) {
         solid->lines[way] = fr_solid_lines(way, corners, triangles);
     }
@@ -372,22 +407,28 @@ static FrStatus make(FrMesh **mesh, FrSolid *solid, const double (*corners)[3], 
     return status;
 }
 
-FrStatus fr_solid_of(FrMesh **mesh, double width, const FrContext *context) {
-    FrSolid solid = {.width = width};
+FrStatus fr_solid_of(FrMesh **mesh, const FrSolidAsk *ask) {
+    const FrContext *context = ask->context;
+    FrSolid solid = {.width = ask->params->voxel};
+    bool is_empty = (*mesh)->index_count == 0;
     double(*corners)[3] = NULL;
     bool is_in_reach = place(*mesh, &solid);
-    size_t triangles = is_in_reach ? take_corners(*mesh, &solid, &corners, context) : 0;
+    size_t triangles = is_in_reach ? take_corners(*mesh, &solid, &corners, ask) : 0;
     double cells = is_in_reach ? area_of((const double(*)[3])corners, triangles) : 1e15;
     const char *who = "the solid of these voxels";
     FrStatus status =
         fr_limit_check((uint64_t)fmin(TRIANGLES_A_CELL * cells, 1e18), context->limits.triangles,
-                       "triangles", who, (FrSpan){0}, context->diags);
+                       "triangles", who, ask->span, context->diags);
     if (status == FR_OK) {
         status = fr_limit_check((uint64_t)fmin(BYTES_A_CELL * cells, 1e18), context->limits.bytes,
-                                "bytes", who, (FrSpan){0}, context->diags);
+                                "bytes", who, ask->span, context->diags);
     }
     if (status == FR_OK) {
+        warn_of_thin(ask);
         status = make(mesh, &solid, (const double(*)[3])corners, triangles, context);
+    }
+    if (status == FR_OK && !is_empty && (*mesh)->index_count == 0) {
+        status = refuse_nothing(ask, triangles > 0);
     }
     g_free(corners);
     return status;

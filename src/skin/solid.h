@@ -1,12 +1,22 @@
 // One watertight solid of many closed surfaces that stand in one another. Private to skin.
 #pragma once
 
+#include "frond/nurbs_skin.h"
 #include "skin/closed.h"
 
+/// Whose solid is wanted.
+typedef struct FrSolidAsk {
+    const FrNurbsParams *params; ///< cells are `voxel` wide
+    const char *plant;           ///< its name
+    FrSpan span;                 ///< where the settings are written
+    const FrContext *context;
+} FrSolidAsk;
+
 /// Replaces a mesh by the outer surface of all that is inside one of its closed surfaces, on a
-/// lattice of cells `width` wide: every edge has two triangles. Open surfaces are left out with a
-/// warning. FR_ERR_LIMIT if it would have too many triangles.
-FR_MUST_USE FrStatus fr_solid_of(FrMesh **mesh, double width, const FrContext *context);
+/// lattice: every edge has two triangles. Open surfaces are left out with a warning.
+/// FR_ERR_LIMIT if it would have too many triangles, FR_ERR_DOCUMENT if nothing would be left of
+/// what there is.
+FR_MUST_USE FrStatus fr_solid_of(FrMesh **mesh, const FrSolidAsk *ask);
 
 // ---- solid_lines.c: where lines of the lattice go into the solid and out of it -----------------
 

@@ -63,6 +63,18 @@ static const Case cases[] = {
      "build a.frond -o a.obj -o a.glb --leaves nodes --lod 1", 0, "*a.obj: *a.glb: *", ""},
     {"settings of surfaces are read by every format that has one", GRAPH("<leaf id=\"l\"/>"),
      "build a.frond -o a.stl --nurbs circle=nine", 0, "*a.stl: *", ""},
+    {"a setting of surfaces that there is not is told with the nearest", GRAPH("<leaf id=\"l\"/>"),
+     "build a.frond -o a.stl --nurbs voxl=3", 2, "",
+     "frond: --nurbs has no setting 'voxl'; did you mean 'voxel'?\n*"},
+    {"where none is near all are listed", GRAPH("<leaf id=\"l\"/>"),
+     "vary a.frond -o a --nurbs nonsense=3", 2, "",
+     "frond: --nurbs has no setting 'nonsense'; there are circle, join, *profile-degree, *\n*"},
+    {"a value of surfaces out of range is told with its name", GRAPH("<leaf id=\"l\"/>"),
+     "build a.frond -o a.stl --nurbs profile-degree=7", 2, "",
+     "frond: --nurbs profile-degree: 7 is outside the range from 1 to 3\n*"},
+    {"a model through whose lattice everything falls is refused with its place",
+     ROOT("<plant id=\"p\"><nurbs voxel=\"50\"/><pgraph><horn id=\"h\"/></pgraph></plant>"),
+     "build a.frond -o a.stl", 1, "", "a.frond:2:16: error: 'p': *[voxel-too-coarse]*"},
     {"a slip of a digit is refused before there is a mesh",
      GRAPH("<tree id=\"t\" number=\"1000\"/><tree id=\"b\" number=\"1000\"/><leaf id=\"leaf\"/>"
            "<link from=\"t\" to=\"b\" kind=\"branch\"/><link from=\"b\" to=\"leaf\" "

@@ -44,6 +44,13 @@ def plain_plants_vary_too(folder):
     assert (folder / "tree-2.glb").exists()
 
 
+def surfaces(folder):
+    tap.run("vary", EXAMPLE, "--count", 1, "-o", folder / "plain", *SMALL)
+    tap.run("vary", EXAMPLE, "--count", 1, "-o", folder / "round", *SMALL, "--nurbs", "foliage=no")
+    for name in ("drawn-1.glb", "drawn.glb", "drawn.png"):
+        assert (folder / "plain" / name).read_bytes() != (folder / "round" / name).read_bytes(), name
+
+
 def mistakes(folder):
     assert "folder" in tap.run("vary", EXAMPLE, status=2).stderr
     assert "'drawn'" in tap.run("vary", EXAMPLE, "--plant", "drwn", "-o", folder, status=2).stderr
@@ -59,6 +66,7 @@ TESTS = [
     ("/program/vary/the same files for any number of threads", same_for_any_threads),
     ("/program/vary/an instance is that of its seed", an_instance_is_that_of_its_seed),
     ("/program/vary/a plant without strokes varies by the defaults", plain_plants_vary_too),
+    ("/program/vary/instances are shown as surfaces if that is asked for", surfaces),
     ("/program/vary/mistakes leave nothing behind", mistakes),
 ]
 

@@ -162,6 +162,30 @@ static void test_nothing_to_see(void) {
     }
 }
 
+#define SHOWN(surfaces)                                                                            \
+    "<frond version='1'><plant id='p'>" surfaces "<pgraph><horn id='h'/></pgraph></plant></frond>"
+
+static FrDigest scene_digest_of(const char *text) {
+    Built built = build(text, -1);
+    g_assert_cmpint(built.status, ==, FR_OK);
+    FrDigest digest = fr_scene_digest(built.scene);
+    forget(&built);
+    return digest;
+}
+
+static void test_surfaces_count(void) {
+    FrDigest digests[] = {scene_digest_of(SHOWN("")), scene_digest_of(SHOWN("<nurbs/>")),
+                          scene_digest_of(SHOWN("<nurbs circle='nine'/>")),
+                          scene_digest_of(SHOWN("<nurbs tolerance='0.01'/>")),
+                          scene_digest_of(SHOWN("<nurbs wind='1, 0, 0'/>"))};
+    for (size_t i = 0; i < G_N_ELEMENTS(digests); i++) {
+        for (size_t k = 0; k < i; k++) {
+            g_assert_cmphex(digests[i], !=, digests[k]);
+        }
+    }
+    g_assert_cmphex(scene_digest_of(SHOWN("<nurbs circle='triangle'/>")), ==, digests[1]);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/scene/the first plant stands at the origin without places",
@@ -169,6 +193,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/scene/a plant is built once for every seed", test_built_once);
     g_test_add_func("/scene/a seed means the same wherever it is given", test_seeds);
     g_test_add_func("/scene/the digest is the same for any number of threads", test_threads);
+    g_test_add_func("/scene/the digest tells how plants are shown as surfaces",
+                    test_surfaces_count);
     g_test_add_func("/scene/bounds hold everything", test_bounds);
     g_test_add_func("/scene/nothing is built without plants or over a limit", test_refused);
     g_test_add_func("/scene/a plant with nothing to see gets a warning", test_nothing_to_see);

@@ -9,7 +9,8 @@
 static FrMesh *meshed(const FrPlant *plant, const FrNurbsParams *params) {
     FrContext context = fr_context_default();
     FrMesh *mesh;
-    g_assert_cmpint(fr_nurbs_mesh(plant, params, 0, FR_UP_Z, &context, &mesh), ==, FR_OK);
+    g_assert_cmpint(fr_nurbs_mesh(plant, params, 0, FR_UP_Z, (FrSpan){0}, &context, &mesh), ==,
+                    FR_OK);
     return mesh;
 }
 
@@ -234,7 +235,8 @@ static void threads(void) {
         FrContext context = fr_context_default();
         context.pool = fr_pool_new(counts[i]);
         FrMesh *mesh;
-        g_assert_cmpint(fr_nurbs_mesh(plant, &params, 0, FR_UP_Y, &context, &mesh), ==, FR_OK);
+        g_assert_cmpint(fr_nurbs_mesh(plant, &params, 0, FR_UP_Y, (FrSpan){0}, &context, &mesh), ==,
+                        FR_OK);
         FrDigest digest = fr_mesh_digest(mesh);
         g_assert_true(i == 0 || digest == first);
         first = digest;
@@ -251,7 +253,8 @@ static void limits(void) {
     context.diags = fr_diags_new();
     context.limits.triangles = 100;
     FrMesh *mesh = (FrMesh *)1;
-    g_assert_cmpint(fr_nurbs_mesh(plant, &params, 0, FR_UP_Z, &context, &mesh), ==, FR_ERR_LIMIT);
+    g_assert_cmpint(fr_nurbs_mesh(plant, &params, 0, FR_UP_Z, (FrSpan){0}, &context, &mesh), ==,
+                    FR_ERR_LIMIT);
     g_assert_null(mesh);
     g_assert_cmpstr(fr_diags_get(context.diags, 0)->code, ==, "limit-triangles");
     fr_diags_free(context.diags);
@@ -303,23 +306,52 @@ static void one_solid(void) {
     fr_plant_free(plant);
 }
 
+static void assert_solid_refused(const FrPlant *plant, const FrNurbsParams *params, FrStatus status,
+                                 const char *const *codes) {
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    FrMesh *mesh = (FrMesh *)1;
+    FrSource *source = fr_source_new("a.frond", "<nurbs/>", 8);
+    const FrSpan span = {source, 1, 6};
+    g_assert_cmpint(fr_nurbs_mesh(plant, params, 0, FR_UP_Z, span, &context, &mesh), ==, status);
+    g_assert_null(mesh);
+    size_t count = 0;
+    for (; codes[count] != NULL; count++) {
+        g_assert_cmpuint(fr_diags_count(context.diags), >, count);
+        g_assert_cmpstr(fr_diags_get(context.diags, count)->code, ==, codes[count]);
+        g_assert_true(fr_diags_get(context.diags, count)->span.source == source);
+    }
+    g_assert_cmpuint(fr_diags_count(context.diags), ==, count);
+    fr_source_unref(source);
+    fr_diags_free(context.diags);
+}
+
 static void open_is_told(void) {
     FrShape leaf = leaf_shape();
     FrPlant *plant = with_organ(&leaf);
     FrNurbsParams params = fr_nurbs_default();
     params.voxel = 0.001;
-    FrContext context = fr_context_default();
-    context.diags = fr_diags_new();
-    FrMesh *mesh;
-    g_assert_cmpint(fr_nurbs_mesh(plant, &params, 0, FR_UP_Z, &context, &mesh), ==, FR_OK);
-    g_assert_cmpstr(fr_diags_get(context.diags, 0)->code, ==, "not-closed");
-    g_assert_cmpuint(mesh->index_count, ==, 0);
-    fr_mesh_free(mesh);
+    static const char *const open[] = {"not-closed", "nothing-closed", NULL};
+    assert_solid_refused(plant, &params, FR_ERR_DOCUMENT, open);
     params.voxel = 1e-6;
     params.thickness = 0.001;
-    g_assert_cmpint(fr_nurbs_mesh(plant, &params, 0, FR_UP_Z, &context, &mesh), ==, FR_ERR_LIMIT);
-    g_assert_null(mesh);
-    fr_diags_free(context.diags);
+    static const char *const large[] = {"limit-triangles", NULL};
+    assert_solid_refused(plant, &params, FR_ERR_LIMIT, large);
+    fr_plant_free(plant);
+}
+
+static void coarse_is_refused(void) {
+    FrPlant *plant = forked();
+    FrNurbsParams params = fr_nurbs_default();
+    params.voxel = 5;
+    static const char *const coarse[] = {"voxel-too-coarse", NULL};
+    assert_solid_refused(plant, &params, FR_ERR_DOCUMENT, coarse);
+    fr_plant_free(plant);
+    FrShape leaf = leaf_shape();
+    plant = with_organ(&leaf);
+    params.thickness = 0.0001;
+    static const char *const thin[] = {"thinner-than-voxel", "voxel-too-coarse", NULL};
+    assert_solid_refused(plant, &params, FR_ERR_DOCUMENT, thin);
     fr_plant_free(plant);
 }
 
@@ -337,5 +369,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/nurbs_mesh/overlapping surfaces become one watertight solid", one_solid);
     g_test_add_func("/skin/nurbs_mesh/open surfaces are no part of a solid, and that is told",
                     open_is_told);
+    g_test_add_func("/skin/nurbs_mesh/a lattice through which everything falls is refused",
+                    coarse_is_refused);
     return g_test_run();
 }
