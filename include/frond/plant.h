@@ -125,6 +125,7 @@ typedef enum FrCap {
 typedef enum FrJunction {
     FR_JUNCTION_COLLAR, ///< on its surface, with its normals
     FR_JUNCTION_PLAIN,  ///< a tube that begins within it
+    FR_JUNCTION_WELDED, ///< one surface with it: no triangle of either is within the other
 } FrJunction;
 
 /// What makes the surface of an axis more than a plain tube. Only skin reads it. Ridges and relief

@@ -129,8 +129,8 @@
     X(REAL, relief, "0", 0, 1, "", "", "depth of the furrows of the bark, in radii")               \
     X(REAL, relief_count, "14", 1, 128, "", "", "furrows around")                                  \
     X(REAL, relief_stretch, "4", 0.1, 100, "", "", "how much longer than wide they are")           \
-    X(CHOICE, junction, "collar", 0, 0, "", "collar plain",                                        \
-      "how it meets its parent: on a collar, or as a tube that begins within it")
+    X(CHOICE, junction, "collar", 0, 0, "", "collar plain welded",                                 \
+      "how it meets its parent: on a collar, as a tube that begins within it, or as one surface")
 
 /// More of stems. Rows here are counted behind all others (fr_purpose), so that a new last one
 /// changes no plant there is.

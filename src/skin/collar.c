@@ -233,8 +233,7 @@ FrCollar fr_collar_find(const FrPlan *plan, const FrTube *tube, uint32_t sides) 
                  collar.parent_radius * fabsf(glms_vec3_dot(collar.direction, collar.along)) / up;
     float forth = internode.beyond + shift + half, back = -(internode.beyond + shift - half);
     bool is_fine = sides > 5 && plan->detail.lod < 2;
-    // A surface holds no ring wider than itself.
-    bool is_thicker = plant->axes.base_radius[tube->axis] > 1.02F * plant->nodes.radius[node];
+    bool is_thicker = plant->axes.base_radius[tube->axis] > FR_THICKER * plant->nodes.radius[node];
     bool is_fork = (plant->axes.flags[tube->axis] & FR_FORK) != 0;
     if (is_fork || is_thicker || !parent_reaches(plan, node, forth, back) ||
         last_exit > 0.6F * length ||

@@ -1,6 +1,8 @@
 // Plans a skin: what moves is moved, rings and leaves are chosen, counted and given their places.
 #include "skin/job.h"
 
+#include "skin/mesh.h"
+
 #include "plant/shapes.h"
 
 enum { RUN_GRAIN = 16 };
@@ -137,6 +139,18 @@ static FrStatus check_triangles(const FrPlan *plan, uint64_t triangles, const ch
                           context->diags);
 }
 
+FrStatus fr_job_check(const FrSkinJob *job, uint64_t vertices, uint64_t indices) {
+    const FrPlan *plan = &job->wood->plan;
+    const FrContext *context = plan->context;
+    const char *who = plan->plant->name != NULL ? plan->plant->name : "plant";
+    uint64_t bytes = fr_count_add(fr_count_multiply(vertices, sizeof(FrVertex)),
+                                  fr_count_multiply(indices, sizeof(uint32_t)));
+    FrStatus status = check_triangles(plan, indices / 3, who);
+    return status != FR_OK ? status
+                           : fr_limit_check(bytes, context->limits.bytes, "bytes", who, (FrSpan){0},
+                                            context->diags);
+}
+
 static FrStatus check_limits(const FrSkinJob *job) {
     const FrPlan *plan = &job->wood->plan;
     const FrSlotSum *wood = job->wood->sums;
@@ -149,13 +163,7 @@ static FrStatus check_limits(const FrSkinJob *job) {
         largest = MAX(largest, MAX(wood[i].vertices, in_organs));
     }
     const char *who = plan->plant->name != NULL ? plan->plant->name : "plant";
-    uint64_t bytes = fr_count_add(fr_count_multiply(vertices, sizeof(FrVertex)),
-                                  fr_count_multiply(indices, sizeof(uint32_t)));
-    FrStatus status = check_triangles(plan, indices / 3, who);
-    if (status == FR_OK) {
-        status =
-            fr_limit_check(bytes, context->limits.bytes, "bytes", who, (FrSpan){0}, context->diags);
-    }
+    FrStatus status = fr_job_check(job, vertices, indices);
     if (status == FR_OK) {
         status = fr_limit_check(largest, UINT32_MAX, "vertices of one material", who, (FrSpan){0},
                                 context->diags);
@@ -212,6 +220,27 @@ FrStatus fr_job_begin(FrSkinJob *job, const FrPlant *plant, const FrSkinParams *
         make_parts(job);
     }
     return status;
+}
+
+bool fr_job_has_welds(const FrSkinJob *job) {
+    const GArray *tubes = job->wood->plan.tubes;
+    for (uint32_t i = 0; i < tubes->len; i++) {
+        const FrTube *tube = &g_array_index(tubes, FrTube, i);
+        if (tube->is_welded && tube->rings > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+FrMesh *fr_job_mesh(const FrSkinJob *job, uint64_t vertices, uint64_t indices) {
+    FrMesh *mesh = fr_mesh_new(vertices, indices, job->part_count);
+    if (mesh == NULL) {
+        fr_diags_add(job->wood->plan.context->diags, FR_ERROR, "out-of-memory", (FrSpan){0},
+                     "There is no memory for a mesh of %" G_GUINT64_FORMAT " triangles",
+                     indices / 3);
+    }
+    return mesh;
 }
 
 void fr_job_clear(FrSkinJob *job) {

@@ -38,6 +38,14 @@ typedef struct FrSkinJob {
 FR_MUST_USE FrStatus fr_job_begin(FrSkinJob *job, const FrPlant *plant, const FrSkinParams *params,
                                   FrUpAxis up, const FrSkinJob *same, const FrContext *context);
 void fr_job_clear(FrSkinJob *job);
+/// Checks so many against the limits.
+FR_MUST_USE FrStatus fr_job_check(const FrSkinJob *job, uint64_t vertices, uint64_t indices);
+/// Room for a mesh of its parts; NULL, with a diagnostic, if there is none.
+FrMesh *fr_job_mesh(const FrSkinJob *job, uint64_t vertices, uint64_t indices);
+/// Whether any branch is to be welded to its parent. Then a mesh is written whole.
+bool fr_job_has_welds(const FrSkinJob *job);
+/// Writes all of it. FR_CANCELLED or FR_ERR_MACHINE or, of welds, FR_ERR_LIMIT may leave a mesh.
+FR_MUST_USE FrStatus fr_job_write(FrSkinJob *job, FrMesh **mesh);
 /// Reports what was noted about deformations.
 void fr_job_report(FrSkinJob *job, const FrPlant *plant);
 /// What the wood depends on besides nodes and axes: profiles, sizes of bark tiles.

@@ -30,6 +30,7 @@ void fr_skin_state_free(FrSkinState *state) {
         return;
     }
     fr_job_clear(&state->job);
+    fr_mesh_free(state->welded);
     g_free(state->rooms);
     g_free(state->runs);
     g_clear_pointer(&state->poses, g_atomic_rc_box_release);
@@ -139,6 +140,18 @@ static void make_blocks(FrSkinState *state) {
     state->slot_blocks[slots] = state->block_count;
 }
 
+// Where tubes are one with others a piece is more than itself, so all is made before the rooms are.
+static FrStatus weld_all(FrSkinState *state) {
+    FrStatus status = fr_job_write(&state->job, &state->welded);
+    if (status == FR_OK) {
+        memcpy(state->job.parts, state->welded->parts,
+               state->job.part_count * sizeof *state->job.parts);
+        state->job.vertices = state->welded->vertex_count;
+        state->job.indices = state->welded->index_count;
+    }
+    return status;
+}
+
 FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
                       const FrContext *context) {
     const FrSkinState *before = skin->state;
@@ -160,6 +173,9 @@ FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
     state->limits = context->limits;
     FrStatus status = fr_job_begin(&state->job, plant, &skin->params, skin->up,
                                    is_same ? &before->job : NULL, context);
+    if (status == FR_OK && fr_job_has_welds(&state->job)) {
+        status = weld_all(state);
+    }
     if (status == FR_OK) {
         state->slots = fr_job_slots(&state->job);
         status = take_rooms(skin, state, context->diags);
@@ -168,7 +184,7 @@ FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
         fr_skin_drop(skin);
         return status;
     }
-    if (state->job.scopes == NULL) {
+    if (state->job.scopes == NULL && state->welded == NULL) {
         digest_all(state, before);
     }
     note_shapes(state, before);

@@ -64,7 +64,9 @@ static bool thin_out(FrPlan *plan, const FrTube *tube, const FrCollar *collar, f
         float length = nodes->length[node];
         vec3s heading = fr_frame_heading(nodes->frame[node]);
         // What is straight now may be bent when it is deformed: then every node has its ring.
-        bool is_ended = (tube->scope != FR_NONE || along < rough) && band.length > 0.0F;
+        bool is_wanted = tube->scope != FR_NONE || along < rough ||
+                         (before != FR_NONE && (plan->marks[before] & FR_NODE_RING) != 0);
+        bool is_ended = is_wanted && band.length > 0.0F;
         if (is_ended || !extend(&plan->detail, &band, length, heading, nodes->radius[node])) {
             // `band.length` is positive, so there is a node before.
             float least = fr_smallest_length(nodes->position[before], nodes->radius[before]);
@@ -141,6 +143,9 @@ static void count_rings(FrPlan *plan, FrTube *tube, float rough) {
         collar = fr_collar_find(plan, tube, sides);
         tube->collar_rings = collar.rings;
         tube->has_join = collar.has_join;
+        const FrFinish *finish = fr_plan_finish(plan, tube->axis);
+        tube->is_welded = finish != NULL && finish->junction == FR_JUNCTION_WELDED &&
+                          !collar.is_nested && collar.rings > 0 && plan->detail.lod < FR_WELD_GONE;
     }
     uint32_t kept = 0;
     FrBand band = band_at(FR_NONE, 0.0F);

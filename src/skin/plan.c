@@ -152,7 +152,7 @@ static FrTubeStart start_of_axis(const FrPlan *plan, uint32_t axis) {
         (of_parent != NULL && !of_parent->is_closed) || (own != NULL && !own->is_closed);
     // What is much thicker than its parent can neither sit on its surface nor begin within it.
     bool is_thicker = plant->nodes.next[bearer] != FR_NONE &&
-                      plant->axes.base_radius[axis] > 1.25F * plant->nodes.radius[bearer];
+                      plant->axes.base_radius[axis] > FR_THICKER * plant->nodes.radius[bearer];
     return is_strip || is_thicker ? FR_START_FREE : FR_START_BRANCH;
 }
 
@@ -237,6 +237,29 @@ static void find_runs(FrPlan *plan) {
     }
 }
 
+// A hole for a welded branch lies between the rings next to it.
+static void mark_welds(FrPlan *plan) {
+    const FrPlant *plant = plan->plant;
+    if (plan->detail.lod >= FR_WELD_GONE) {
+        return;
+    }
+    for (uint32_t k = 0; k < plant->axes.count; k++) {
+        const FrFinish *finish = fr_plan_finish(plan, k);
+        uint32_t bearer = plant->axes.bearer[k];
+        if (bearer == FR_NONE || finish == NULL || finish->junction != FR_JUNCTION_WELDED) {
+            continue;
+        }
+        uint32_t before = plant->nodes.parent[bearer], after = plant->nodes.next[bearer];
+        plan->marks[bearer] |= FR_NODE_RING;
+        if (before != FR_NONE) {
+            plan->marks[before] |= FR_NODE_RING;
+        }
+        if (after != FR_NONE) {
+            plan->marks[after] |= FR_NODE_RING;
+        }
+    }
+}
+
 // ---- tables ------------------------------------------------------------------------------------
 
 static void make_sections(FrPlan *plan) {
@@ -293,6 +316,7 @@ void fr_plan_init(FrPlan *plan, const FrPlant *plant, const FrScopes *scopes,
     read_tiles(plan);
     mark_gone(plan);
     find_successors(plan);
+    mark_welds(plan);
     find_runs(plan);
 }
 

@@ -51,6 +51,7 @@ typedef struct FrTube {
     uint32_t rings;       ///< 0: nothing to draw
     uint8_t collar_rings; ///< FR_START_BRANCH: rings that lie on the parent or lead from it …
     bool has_join;        ///< … followed by a full ring where the branch is clear of its parent
+    bool is_welded;       ///< its first ring is to be one with the parent's surface: see weld.c
     uint8_t start, end;
     bool is_point_sets;
     bool has_shoulder;   ///< FR_END_POINT: blunt, so a ring shortly before the tip
@@ -75,7 +76,14 @@ typedef struct FrRun {
 enum {
     FR_NODE_GONE = 1 << 0,  ///< shed, or borne by something shed
     FR_NODE_BLUNT = 1 << 1, ///< last of its axis, but bears a branch: no point
+    FR_NODE_RING = 1 << 2,  ///< a ring stands at it, however straight its axis is
 };
+
+/// From this level of detail on no branch is welded.
+enum { FR_WELD_GONE = 2 };
+
+/// What is thicker than so many of its parent's radii has no room on its surface.
+#define FR_THICKER 1.25F
 
 /// Values of FrPlan.keep.
 enum {

@@ -274,6 +274,40 @@ static void note_unchanged(FrSkin *skin) {
     skin->is_unchanged = false;
 }
 
+// Copies a mesh that is made already into the rooms.
+static void write_welded(const Writing *writing) {
+    const FrSkinState *now = writing->now;
+    const FrMesh *mesh = now->welded;
+    for (uint32_t i = 0; i < 2 * fr_job_slots(&now->job); i++) {
+        uint32_t index = now->job.part_of[i % 2 * fr_job_slots(&now->job) + i / 2];
+        if (index == FR_NONE) {
+            continue;
+        }
+        const FrMeshPart *part = &mesh->parts[index];
+        memcpy(now->rooms[i].slab.vertices, mesh->vertices + part->first_vertex,
+               part->vertex_count * sizeof(FrVertex));
+        memcpy(now->rooms[i].slab.indices, mesh->indices + part->first_index,
+               part->index_count * sizeof(uint32_t));
+        Touch *touched = &writing->touches[i];
+        touched->vertex = touched->index = 0;
+        touched->vertex_end = part->vertex_count;
+        touched->index_end = part->index_count;
+        memcpy(touched->box.min, part->min, sizeof part->min);
+        memcpy(touched->box.max, part->max, sizeof part->max);
+    }
+    writing->touches[0].written = now->job.wood->plan.runs->len;
+    writing->touches[1].written = now->job.organs.piece_count;
+}
+
+static void write_pieces(const FrSkin *skin, Writing *writing, const FrContext *context) {
+    fr_parallel_for(context->pool, writing->now->job.wood->plan.runs->len, RUN_GRAIN, write_runs,
+                    writing, NULL);
+    fr_progress_report(context->progress, "skin", 0.6);
+    fr_parallel_for(context->pool, skin->planned->block_count, BLOCK_GRAIN, write_blocks, writing,
+                    NULL);
+    join_touches(writing, fr_pool_threads(context->pool));
+}
+
 void fr_skin_write(FrSkin *skin, const FrPlant *plant, const FrContext *context) {
     if (skin->is_unchanged) {
         note_unchanged(skin);
@@ -282,12 +316,12 @@ void fr_skin_write(FrSkin *skin, const FrPlant *plant, const FrContext *context)
     FrSkinJob *job = &skin->planned->job;
     int workers = fr_pool_threads(context->pool);
     Writing writing = begin_writing(skin, workers);
-    fr_parallel_for(context->pool, job->wood->plan.runs->len, RUN_GRAIN, write_runs, &writing,
-                    NULL);
-    fr_progress_report(context->progress, "skin", 0.6);
-    fr_parallel_for(context->pool, skin->planned->block_count, BLOCK_GRAIN, write_blocks, &writing,
-                    NULL);
-    join_touches(&writing, workers);
+    if (skin->planned->welded != NULL) {
+        write_welded(&writing);
+        g_clear_pointer(&skin->planned->welded, fr_mesh_free);
+    } else {
+        write_pieces(skin, &writing, context);
+    }
     list_parts(skin, &writing);
     fr_job_report(job, plant);
     g_free(writing.wood);

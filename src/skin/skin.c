@@ -3,6 +3,7 @@
 
 #include "skin/job.h"
 #include "skin/mesh.h"
+#include "skin/weld.h"
 
 #include <string.h>
 
@@ -62,14 +63,8 @@ static void write_organs(void *data, size_t begin, size_t end, int worker) {
 }
 
 static FrMesh *make_mesh(const FrSkinJob *job, FrSlab *slabs) {
-    FrMesh *mesh = fr_mesh_new(job->vertices, job->indices, job->part_count);
-    if (mesh == NULL) {
-        fr_diags_add(job->wood->plan.context->diags, FR_ERROR, "out-of-memory", (FrSpan){0},
-                     "There is no memory for a mesh of %" G_GUINT64_FORMAT " triangles",
-                     job->indices / 3);
-        return NULL;
-    }
-    for (uint32_t i = 0; i < 2 * fr_job_slots(job); i++) {
+    FrMesh *mesh = fr_job_mesh(job, job->vertices, job->indices);
+    for (uint32_t i = 0; mesh != NULL && i < 2 * fr_job_slots(job); i++) {
         if (job->part_of[i] != FR_NONE) {
             const FrMeshPart *part = &job->parts[job->part_of[i]];
             mesh->parts[job->part_of[i]] = *part;
@@ -102,7 +97,7 @@ static void set_bounds(const Writing *writing, int workers, FrMesh *mesh) {
     g_free(boxes);
 }
 
-static FrStatus write_all(FrSkinJob *job, FrMesh **mesh) {
+FrStatus fr_job_write(FrSkinJob *job, FrMesh **mesh) {
     const FrContext *context = job->wood->plan.context;
     uint32_t slots = fr_job_slots(job);
     int workers = fr_pool_threads(context->pool);
@@ -126,7 +121,7 @@ static FrStatus write_all(FrSkinJob *job, FrMesh **mesh) {
     }
     g_free(writing.slabs);
     g_free(writing.boxes);
-    return status;
+    return status == FR_OK ? fr_weld(job, mesh) : status;
 }
 
 FrStatus fr_skin_plant(const FrPlant *plant, const FrSkinParams *params, FrUpAxis up,
@@ -134,7 +129,7 @@ FrStatus fr_skin_plant(const FrPlant *plant, const FrSkinParams *params, FrUpAxi
     FrSkinJob job;
     *mesh = NULL;
     FrStatus status = fr_job_begin(&job, plant, params, up, NULL, context);
-    status = status == FR_OK ? write_all(&job, mesh) : status;
+    status = status == FR_OK ? fr_job_write(&job, mesh) : status;
     if (status == FR_OK) {
         fr_progress_report(context->progress, "skin", 1.0);
     } else {

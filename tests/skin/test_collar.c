@@ -70,8 +70,8 @@ static void try_branch(FrPlant *plant, uint32_t node, float degrees, float ratio
 
 static void test_straight(void) {
     for (float degrees = 10; degrees <= 170; degrees += 20) {
-        for (int k = 0; k < 4; k++) {
-            const float ratio[] = {0.1F, 0.4F, 0.8F, 1.0F};
+        for (int k = 0; k < 6; k++) {
+            const float ratio[] = {0.1F, 0.4F, 0.8F, 1.0F, 1.1F, 1.24F};
             FrPlant *plant = fr_plant_new("straight");
             check_stem(plant, FR_NONE, 20, 8.0F, 0.1F, 0.1F, check_straight, check_straight);
             // A polygon of twelve sides is 1 − cos 15° = 0.034 within its circle.
@@ -141,7 +141,7 @@ static void test_thicker(void) {
     fr_plant_free(plant);
 }
 
-// A little thicker, it begins with a ring within its parent: no edge and no cap shows.
+// A little thicker, it has a collar as others have: no edge and no cap shows.
 static void test_little_thicker(void) {
     FrPlant *plant = fr_plant_new("thicker");
     check_stem(plant, FR_NONE, 20, 2.0F, 0.05F, 0.05F, check_straight, check_straight);
@@ -213,7 +213,7 @@ int main(int argc, char **argv) {
                     test_end);
     g_test_add_func("/skin/collar/a branch thicker than its parent begins round", test_thicker);
     g_test_add_func("/skin/collar/a branch may turn straight back along its stem", test_back);
-    g_test_add_func("/skin/collar/a branch a little thicker begins within its parent",
+    g_test_add_func("/skin/collar/a branch a little thicker begins on its parent too",
                     test_little_thicker);
     g_test_add_func("/skin/collar/the size of a collar widens the base", test_size);
     return g_test_run();

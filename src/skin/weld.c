@@ -1,0 +1,406 @@
+// Welds branches to their parents: a hole in the parent's lattice of quads, as wide as the branch's
+// first ring needs it, is filled from its rim to that ring. Both have the same places and normals
+// there, so the surface is one.
+//
+// It goes over a mesh that is written, in the order of tubes: parents come before what they bear.
+// Where a hole would meet another's or the parent's end, or would go around it, the branch stays
+// as it was: on a collar that reaches into its parent.
+#include "skin/weld.h"
+
+#include "skin/mesh.h"
+
+#include <cglm/struct.h>
+
+#include <math.h>
+#include <string.h>
+
+// Quads that a ring keeps away from the rim of its hole.
+#define CLEAR_COLUMNS 0.15F
+#define CLEAR_RINGS 0.08F
+enum { FEET_MOST = 129 };
+
+/// What is added to a part.
+typedef struct FrAddition {
+    GArray *vertices; ///< FrVertex; NULL: nothing
+    GArray *indices;  ///< uint32_t, from the part's first vertex
+} FrAddition;
+
+typedef struct FrWelding {
+    const FrSkinJob *job;
+    FrMesh *mesh;
+    uint32_t *tube_of;     ///< by node, FR_NONE
+    FrWeldGrid *grids;     ///< by tube, as they are needed
+    uint8_t *is_gone;      ///< by triangle of the mesh
+    FrAddition *additions; ///< by part
+} FrWelding;
+
+/// The branch's first ring on its parent, and its hole.
+typedef struct FrWeldHole {
+    FrWeldFoot feet[FEET_MOST];
+    uint32_t foot_count;
+    int32_t left, right;  ///< columns of the rim
+    uint32_t bottom, top; ///< rings of it
+} FrWeldHole;
+
+static const FrTube *tube_at(const FrWelding *welding, uint32_t tube) {
+    return &g_array_index(welding->job->wood->plan.tubes, FrTube, tube);
+}
+
+static uint32_t part_of(const FrWelding *welding, const FrTube *tube) {
+    return welding->job->part_of[tube->slot];
+}
+
+static FrVertex *vertices_of(const FrWelding *welding, const FrTube *tube) {
+    const FrMeshPart *part = &welding->mesh->parts[part_of(welding, tube)];
+    return welding->mesh->vertices + part->first_vertex + tube->first_vertex;
+}
+
+static uint32_t columns_of(const FrWelding *welding, const FrTube *tube) {
+    return welding->job->wood->plan.sections[tube->section].count;
+}
+
+// ---- the hole ----------------------------------------------------------------------------------
+
+static const FrWeldGrid *grid_of(FrWelding *welding, uint32_t tube) {
+    FrWeldGrid *grid = &welding->grids[tube];
+    if (grid->bands == NULL) {
+        const FrTube *parent = tube_at(welding, tube);
+        fr_weld_grid_init(grid, vertices_of(welding, parent), columns_of(welding, parent),
+                          parent->rings);
+    }
+    return grid;
+}
+
+// Finds where the ring is on the parent; false if it goes around it.
+static bool find_feet(const FrWeldGrid *grid, const FrVertex *ring, uint32_t count,
+                      FrWeldHole *hole) {
+    float sides = (float)grid->columns - 1.0F;
+    hole->foot_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        FrWeldFoot *foot = &hole->feet[i];
+        *foot = fr_weld_snap(grid, ring[i].position);
+        float before = i > 0 ? hole->feet[i - 1].x : foot->x;
+        float turns = floorf((before - foot->x) / sides + 0.5F);
+        foot->x += turns * sides;
+        foot->vertex.uv[0] += turns * grid->around;
+    }
+    return fabsf(hole->feet[count - 1].x - hole->feet[0].x) < 0.5F * sides;
+}
+
+// The rectangle of quads that has the ring within it; false if there is none.
+static bool find_rim(const FrWeldGrid *grid, FrWeldHole *hole) {
+    float left = INFINITY, right = -INFINITY, bottom = INFINITY, top = -INFINITY;
+    for (uint32_t i = 0; i < hole->foot_count; i++) {
+        left = MIN(left, hole->feet[i].x);
+        right = MAX(right, hole->feet[i].x);
+        bottom = MIN(bottom, hole->feet[i].y);
+        top = MAX(top, hole->feet[i].y);
+    }
+    if (bottom < CLEAR_RINGS || top > (float)grid->rings - 1.0F - CLEAR_RINGS) {
+        return false;
+    }
+    hole->left = (int32_t)floorf(left - CLEAR_COLUMNS);
+    hole->right = (int32_t)ceilf(right + CLEAR_COLUMNS);
+    hole->bottom = (uint32_t)(bottom - CLEAR_RINGS);
+    hole->top = MIN((uint32_t)ceilf(top + CLEAR_RINGS), grid->rings - 1);
+    uint32_t wide = (uint32_t)(hole->right - hole->left), high = hole->top - hole->bottom;
+    return wide + 1 < grid->columns - 1 && 2 * (wide + high) + hole->foot_count <= FR_WELD_MOST;
+}
+
+// The first of the two triangles of a quad, in the mesh.
+static uint64_t triangles_at(const FrWelding *welding, const FrTube *tube, int32_t column,
+                             uint32_t ring) {
+    int32_t sides = (int32_t)columns_of(welding, tube) - 1;
+    uint64_t at = (uint64_t)(((column % sides) + sides) % sides);
+    uint64_t first = welding->mesh->parts[part_of(welding, tube)].first_index + tube->first_index;
+    return first / 3 + 2 * ((uint64_t)ring * (uint64_t)sides + at);
+}
+
+// Whether every quad of the hole is still there; with `take`, removes them.
+static bool dig(FrWelding *welding, const FrTube *tube, const FrWeldHole *hole, bool take) {
+    for (uint32_t ring = hole->bottom; ring < hole->top; ring++) {
+        for (int32_t column = hole->left; column < hole->right; column++) {
+            uint64_t at = triangles_at(welding, tube, column, ring);
+            if (welding->is_gone[at] != 0) {
+                return false;
+            }
+            welding->is_gone[at] = welding->is_gone[at + 1] = take ? 1 : 0;
+        }
+    }
+    return true;
+}
+
+// ---- the patch ---------------------------------------------------------------------------------
+
+static FrWeldPoint point_of(const FrVertex *vertex, float x, float y) {
+    return (FrWeldPoint){{{vertex->position[0], vertex->position[1], vertex->position[2]}}, x, y};
+}
+
+// Counter-clockwise from the lower left corner.
+static uint32_t walk_rim(const FrWeldGrid *grid, const FrWeldHole *hole, FrVertex *vertices,
+                         FrWeldPoint *points) {
+    int32_t x = hole->left, wide = hole->right - hole->left;
+    int32_t y = (int32_t)hole->bottom, high = (int32_t)(hole->top - hole->bottom);
+    uint32_t count = 0;
+    const int32_t sides[4][3] = {{1, 0, wide}, {0, 1, high}, {-1, 0, wide}, {0, -1, high}};
+    for (int side = 0; side < 4; side++) {
+        for (int32_t k = 0; k < sides[side][2]; k++) {
+            vertices[count] = fr_weld_grid_vertex(grid, x, (uint32_t)y);
+            points[count] = point_of(&vertices[count], (float)x, (float)y);
+            count++;
+            x += sides[side][0];
+            y += sides[side][1];
+        }
+    }
+    return count;
+}
+
+// The feet, turned round if the branch's columns go the other way.
+static void walk_feet(const FrWeldHole *hole, FrVertex *vertices, FrWeldPoint *points) {
+    uint32_t count = hole->foot_count;
+    float area = 0.0F;
+    for (uint32_t i = 0; i < count; i++) {
+        const FrWeldFoot *a = &hole->feet[i], *b = &hole->feet[(i + 1) % count];
+        area += (a->x - hole->feet[0].x) * (b->y - hole->feet[0].y) -
+                (b->x - hole->feet[0].x) * (a->y - hole->feet[0].y);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const FrWeldFoot *foot = &hole->feet[area > 0.0F ? i : count - 1 - i];
+        vertices[i] = foot->vertex;
+        points[i] = point_of(&foot->vertex, foot->x, foot->y);
+    }
+}
+
+// Deformed space may be inside out: then so are the quads that go.
+static bool is_turned(const FrWelding *welding, const FrTube *tube, const FrWeldHole *hole) {
+    const uint32_t *corner =
+        welding->mesh->indices + 3 * triangles_at(welding, tube, hole->left, hole->bottom);
+    return corner[1] != corner[0] + 1;
+}
+
+static bool add_patch(FrWelding *welding, const FrTube *tube, const FrWeldGrid *grid,
+                      const FrWeldHole *hole) {
+    FrVertex vertices[FR_WELD_MOST];
+    FrWeldPoint points[FR_WELD_MOST];
+    uint32_t triangles[FR_WELD_MOST][3];
+    uint32_t rim = walk_rim(grid, hole, vertices, points), feet = hole->foot_count;
+    walk_feet(hole, vertices + rim, points + rim);
+    uint32_t count = fr_weld_strip(points, rim, points + rim, feet, triangles);
+    if (count == 0) {
+        return false;
+    }
+    uint32_t part = part_of(welding, tube);
+    FrAddition *addition = &welding->additions[part];
+    if (addition->vertices == NULL) {
+        addition->vertices = g_array_new(FALSE, FALSE, sizeof(FrVertex));
+        addition->indices = g_array_new(FALSE, FALSE, sizeof(uint32_t));
+    }
+    uint32_t first = (uint32_t)welding->mesh->parts[part].vertex_count + addition->vertices->len;
+    bool turned = is_turned(welding, tube, hole);
+    g_array_append_vals(addition->vertices, vertices, rim + feet);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t corner[3] = {first + triangles[i][0], first + triangles[i][turned ? 2 : 1],
+                              first + triangles[i][turned ? 1 : 2]};
+        g_array_append_vals(addition->indices, corner, 3);
+    }
+    return true;
+}
+
+// ---- one branch --------------------------------------------------------------------------------
+
+// Moves the first ring onto the parent, and those that lead from it as far as they follow.
+static void move_collar(const FrTube *tube, uint32_t columns, const FrWeldHole *hole,
+                        FrVertex *rings) {
+    for (uint32_t i = 0; i < columns; i++) {
+        const FrVertex *foot = &hole->feet[i % (columns - 1)].vertex;
+        float move[3];
+        for (int k = 0; k < 3; k++) {
+            move[k] = foot->position[k] - rings[i].position[k];
+        }
+        for (uint32_t ring = 1; ring < tube->collar_rings; ring++) {
+            float left = 1.0F - (float)ring / (float)tube->collar_rings;
+            for (int k = 0; k < 3; k++) {
+                rings[ring * columns + i].position[k] += left * left * move[k];
+            }
+        }
+        memcpy(rings[i].position, foot->position, sizeof foot->position);
+        memcpy(rings[i].normal, foot->normal, sizeof foot->normal);
+    }
+}
+
+static void weld_tube(FrWelding *welding, const FrTube *tube) {
+    const FrPlan *plan = &welding->job->wood->plan;
+    uint32_t parent = welding->tube_of[plan->plant->axes.bearer[tube->axis]];
+    uint32_t columns = columns_of(welding, tube);
+    if (parent == FR_NONE || columns - 1 >= FEET_MOST) {
+        return;
+    }
+    const FrTube *bearer = tube_at(welding, parent);
+    if (bearer->rings < 2 || !plan->sections[bearer->section].is_closed ||
+        bearer->scope != tube->scope) {
+        return;
+    }
+    const FrWeldGrid *grid = grid_of(welding, parent);
+    FrVertex *ring = vertices_of(welding, tube);
+    FrWeldHole hole = {0};
+    if (find_feet(grid, ring, columns - 1, &hole) && find_rim(grid, &hole) &&
+        dig(welding, bearer, &hole, false) && add_patch(welding, bearer, grid, &hole)) {
+        dig(welding, bearer, &hole, true);
+        move_collar(tube, columns, &hole, ring);
+    }
+}
+
+// ---- the mesh without what has gone ------------------------------------------------------------
+
+/// Which vertices of a part are still used; answers how many indices are left.
+static uint64_t mark_used(const FrWelding *welding, const FrMeshPart *part, uint8_t *is_used) {
+    uint64_t left = 0;
+    for (uint64_t i = part->first_index; i < part->first_index + part->index_count; i += 3) {
+        if (welding->is_gone[i / 3] == 0) {
+            for (uint64_t k = i; k < i + 3; k++) {
+                is_used[welding->mesh->indices[k]] = 1;
+            }
+            left += 3;
+        }
+    }
+    return left;
+}
+
+// Writes a part that has additions behind what `to` has so far.
+static void copy_part(const FrWelding *welding, uint32_t index, FrMesh *to, FrMeshPart *out) {
+    const FrMeshPart *part = &welding->mesh->parts[index];
+    const FrAddition *more = &welding->additions[index];
+    uint64_t all = part->vertex_count + more->vertices->len;
+    uint8_t *is_used = g_new0(uint8_t, all);
+    uint32_t *place = g_new(uint32_t, all);
+    FrVertex *vertices = to->vertices + out->first_vertex;
+    uint32_t *indices = to->indices + out->first_index, count = 0;
+    mark_used(welding, part, is_used);
+    memset(is_used + part->vertex_count, 1, more->vertices->len);
+    for (uint64_t i = 0; i < all; i++) {
+        const FrVertex *from =
+            i < part->vertex_count
+                ? &welding->mesh->vertices[part->first_vertex + i]
+                : &g_array_index(more->vertices, FrVertex, i - part->vertex_count);
+        place[i] = count;
+        if (is_used[i] != 0) {
+            vertices[count++] = *from;
+        }
+    }
+    for (uint64_t i = part->first_index; i < part->first_index + part->index_count; i++) {
+        if (welding->is_gone[i / 3] == 0) {
+            *indices++ = place[welding->mesh->indices[i]];
+        }
+    }
+    for (guint i = 0; i < more->indices->len; i++) {
+        *indices++ = place[g_array_index(more->indices, uint32_t, i)];
+    }
+    FrBox box = fr_box_empty();
+    fr_box_widen(&box, vertices, count);
+    fr_part_set_box(out, box.min, box.max);
+    g_free(is_used);
+    g_free(place);
+}
+
+static void count_part(const FrWelding *welding, uint32_t index, FrMeshPart *out) {
+    const FrMeshPart *part = &welding->mesh->parts[index];
+    const FrAddition *more = &welding->additions[index];
+    if (more->vertices == NULL) {
+        return;
+    }
+    uint8_t *is_used = g_new0(uint8_t, part->vertex_count);
+    out->index_count = mark_used(welding, part, is_used) + more->indices->len;
+    out->vertex_count = more->vertices->len;
+    for (uint64_t i = 0; i < part->vertex_count; i++) {
+        out->vertex_count += is_used[i];
+    }
+    g_free(is_used);
+}
+
+static FrStatus rewrite(FrWelding *welding, FrMesh **mesh) {
+    const FrMesh *from = welding->mesh;
+    FrMeshPart *parts = g_memdup2(from->parts, from->part_count * sizeof *from->parts);
+    uint64_t vertices = 0, indices = 0;
+    for (uint32_t i = 0; i < from->part_count; i++) {
+        count_part(welding, i, &parts[i]);
+        parts[i].first_vertex = vertices;
+        parts[i].first_index = indices;
+        vertices += parts[i].vertex_count;
+        indices += parts[i].index_count;
+    }
+    FrStatus status = fr_job_check(welding->job, vertices, indices);
+    FrMesh *to = status == FR_OK ? fr_job_mesh(welding->job, vertices, indices) : NULL;
+    for (uint32_t i = 0; to != NULL && i < from->part_count; i++) {
+        const FrMeshPart *part = &from->parts[i];
+        if (welding->additions[i].vertices != NULL) {
+            copy_part(welding, i, to, &parts[i]);
+        } else {
+            memcpy(to->vertices + parts[i].first_vertex, from->vertices + part->first_vertex,
+                   part->vertex_count * sizeof(FrVertex));
+            memcpy(to->indices + parts[i].first_index, from->indices + part->first_index,
+                   part->index_count * sizeof(uint32_t));
+        }
+        to->parts[i] = parts[i];
+    }
+    g_free(parts);
+    if (to != NULL) {
+        fr_mesh_free(*mesh);
+        *mesh = to;
+    }
+    return status == FR_OK && to == NULL ? FR_ERR_MACHINE : status;
+}
+
+// ---- the whole ---------------------------------------------------------------------------------
+
+static uint32_t *tubes_by_node(const FrPlan *plan) {
+    uint32_t *tube_of = g_new(uint32_t, plan->plant->nodes.count);
+    memset(tube_of, 0xff, plan->plant->nodes.count * sizeof *tube_of);
+    for (uint32_t i = 0; i < plan->tubes->len; i++) {
+        const FrTube *tube = &g_array_index(plan->tubes, FrTube, i);
+        for (uint32_t node = tube->first; tube->rings > 0; node = fr_plan_next(plan, node)) {
+            tube_of[node] = i;
+            if (node == tube->last) {
+                break;
+            }
+        }
+    }
+    return tube_of;
+}
+
+FrStatus fr_weld(const FrSkinJob *job, FrMesh **mesh) {
+    if (!fr_job_has_welds(job)) {
+        return FR_OK;
+    }
+    const FrPlan *plan = &job->wood->plan;
+    FrWelding welding = {
+        .job = job,
+        .mesh = *mesh,
+        .tube_of = tubes_by_node(plan),
+        .grids = g_new0(FrWeldGrid, plan->tubes->len),
+        .is_gone = g_new0(uint8_t, (*mesh)->index_count / 3 + 1),
+        .additions = g_new0(FrAddition, (*mesh)->part_count),
+    };
+    FrStatus status = FR_OK;
+    for (uint32_t i = 0; i < plan->tubes->len && status == FR_OK; i++) {
+        const FrTube *tube = tube_at(&welding, i);
+        if (tube->is_welded && tube->rings > 0) {
+            weld_tube(&welding, tube);
+        }
+        status = fr_progress_is_cancelled(plan->context->progress) ? FR_CANCELLED : FR_OK;
+    }
+    status = status == FR_OK ? rewrite(&welding, mesh) : status;
+    for (uint32_t i = 0; i < plan->tubes->len; i++) {
+        fr_weld_grid_clear(&welding.grids[i]);
+    }
+    for (uint32_t i = 0; i < job->part_count; i++) {
+        if (welding.additions[i].vertices != NULL) {
+            g_array_free(welding.additions[i].vertices, TRUE);
+            g_array_free(welding.additions[i].indices, TRUE);
+        }
+    }
+    g_free(welding.tube_of);
+    g_free(welding.grids);
+    g_free(welding.is_gone);
+    g_free(welding.additions);
+    return status;
+}
