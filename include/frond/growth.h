@@ -130,6 +130,10 @@ FR_API bool fr_growth_undo(FrGrowth *growth);
 FR_API FrGrowthStats fr_growth_stats(const FrGrowth *growth);
 
 FR_API uint32_t fr_growth_plant_count(const FrGrowth *growth);
+/// True if a plant has a growing bud.
+FR_API bool fr_growth_is_alive(const FrGrowth *growth, uint32_t plant);
+/// Volume of a plant's wood, m³: its internodes as cylinders.
+FR_API double fr_growth_wood(const FrGrowth *growth, uint32_t plant);
 FR_API FrSeed fr_growth_seed(const FrGrowth *growth, uint32_t plant);
 /// A grown plant relative to its seed: axes, radii, leaves, buds. Axes of order i are of component
 /// `order-i`.

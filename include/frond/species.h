@@ -77,6 +77,14 @@
     X(INTEGER, shed_age, "3", 0, 1000, "", "", "steps before a branch may drop")                   \
     X(INTEGER, shed_dead, "4", 0, 10000, "", "",                                                   \
       "steps after which branches without live buds drop; 0: never")                               \
+    /* death */                                                                                    \
+    X(REAL, upkeep, "0", 0, 1, "", "",                                                             \
+      "light that each live bud takes; a plant whose buds gather less than that and …")            \
+    X(REAL, wood_upkeep, "0", 0, 100, "1/m", "",                                                   \
+      "… this for each metre of wood from each of them to the ground starves; both 0: none does")  \
+    X(INTEGER, endurance, "3", 1, 10000, "", "", "steps in a row that it starves before it dies")  \
+    X(CHOICE, dead, "stands", 0, 0, "", "stands falls",                                            \
+      "a plant that has starved stays as bare wood, or is gone")                                   \
     /* attraction particles */                                                                     \
     X(INTEGER, particles, "0", 0, 10000000, "", "", "that its envelope is filled with at first")   \
     X(CHOICE, particle_rule, "space", 0, 0, "", "space bud",                                       \
@@ -168,6 +176,7 @@ enum {
 };
 enum { FR_FATE_AUXIN, FR_FATE_FLUX, FR_FATE_PRIORITY, FR_FATE_COLONIZE };
 enum { FR_SHED_NONE, FR_SHED_LIGHT, FR_SHED_VIGOUR, FR_SHED_BOTH };
+enum { FR_DEAD_STANDS, FR_DEAD_FALLS };
 enum { FR_PARTICLE_SPACE, FR_PARTICLE_BUD };
 enum { FR_PARTICLES_ALL, FR_PARTICLES_NEAREST };
 enum { FR_TURN_SUM, FR_TURN_PART };

@@ -66,12 +66,19 @@ typedef struct CliVerb {
     guint least_files, most_files;
 } CliVerb;
 
+/// The plants that still grow after a step, and the volume of their wood.
+typedef struct CliStand {
+    uint64_t step, living;
+    double wood; ///< m³
+} CliStand;
+
 /// What a verb works with. `context` has a pool, a progress and diagnostics.
 struct CliSession {
     const CliVerb *verb;
     const CliOptions *options;
     FrContext context;
     FrSource *unwritten; ///< the document that an L-system was read as; what it says has no place
+    GArray *stands;      ///< CliStand: of each step of plants that grow bud by bud, for --stats
     double began;        ///< seconds of the monotonic clock
     double read_seconds, build_seconds, render_seconds;
 };

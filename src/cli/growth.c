@@ -13,9 +13,8 @@ bool cli_growth_takes_steps(const FrDocument *document) {
 }
 
 /// The file is replaced at once, so that one step is lost at most.
-static FrStatus write_checkpoint(void *data, const FrSimulation *simulation,
+static FrStatus write_checkpoint(CliSession *session, const FrSimulation *simulation,
                                  const FrContext *context) {
-    CliSession *session = data;
     GBytes *bytes = fr_simulation_save(simulation, context);
     if (bytes == NULL) {
         return FR_ERR_DOCUMENT;
@@ -27,10 +26,31 @@ static FrStatus write_checkpoint(void *data, const FrSimulation *simulation,
     return status;
 }
 
+static void note_stand(CliSession *session, const FrGrowth *growth) {
+    CliStand stand = {.step = fr_growth_stats(growth).step};
+    for (uint32_t i = 0; i < fr_growth_plant_count(growth); i++) {
+        if (fr_growth_is_alive(growth, i)) {
+            stand.living++;
+            stand.wood += fr_growth_wood(growth, i);
+        }
+    }
+    g_array_append_val(session->stands, stand);
+}
+
+static FrStatus after_step(void *data, const FrSimulation *simulation, const FrContext *context) {
+    CliSession *session = data;
+    if (session->options->stats != NULL) {
+        note_stand(session, fr_simulation_growth(simulation));
+    }
+    return session->options->checkpoint == NULL ? FR_OK
+                                                : write_checkpoint(session, simulation, context);
+}
+
 FrStatus cli_session_grow(CliSession *session, const FrDocument *document, double time,
                           FrScene **scene) {
     const CliOptions *options = session->options;
     *scene = NULL;
+    g_array_set_size(session->stands, 0);
     if ((options->checkpoint != NULL || options->resume != NULL) &&
         !cli_growth_takes_steps(document)) {
         cli_message("nothing in the document grows bud by bud, so there is nothing to save or "
@@ -40,7 +60,7 @@ FrStatus cli_session_grow(CliSession *session, const FrDocument *document, doubl
     FrSceneOptions how = {.seed = options->seed,
                           .time = time,
                           .steps = options->steps,
-                          .after_step = options->checkpoint != NULL ? write_checkpoint : NULL,
+                          .after_step = after_step,
                           .data = session};
     char *saved = NULL;
     FrSource *named = NULL;

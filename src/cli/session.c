@@ -34,6 +34,7 @@ int cli_session_signal(void) {
 
 void cli_session_open(CliSession *session, const CliVerb *verb, const CliOptions *options) {
     *session = (CliSession){.verb = verb, .options = options, .began = cli_now()};
+    session->stands = g_array_new(FALSE, FALSE, sizeof(CliStand));
     session->context = (FrContext){.pool = fr_pool_new(options->threads),
                                    .progress = cli_progress_new(options->is_quiet),
                                    .diags = fr_diags_new(),
@@ -48,6 +49,7 @@ void cli_session_close(CliSession *session) {
     cli_session_flush(session);
     fr_diags_free(session->context.diags);
     fr_source_unref(session->unwritten);
+    g_array_unref(session->stands);
     fr_pool_free(session->context.pool);
 }
 

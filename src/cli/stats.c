@@ -97,6 +97,20 @@ static void set_buds(json_t *row, const FrSceneStep *step) {
     set_text(row, "digest", digest);
 }
 
+static void set_stand(json_t *row, uint64_t living, double wood) {
+    set_count(row, "living", living);
+    json_object_set_new(row, "wood", json_real(wood));
+}
+
+/// Steps that a run was resumed after have no stands.
+static void set_stand_of_step(json_t *row, const CliSession *session, uint64_t step) {
+    const CliStand *first = (const CliStand *)(void *)session->stands->data;
+    if (session->stands->len > 0 && step >= first->step) {
+        const CliStand *stand = &first[step - first->step];
+        set_stand(row, stand->living, stand->wood);
+    }
+}
+
 static bool is_alive(const FrPlant *plant) {
     bool is_alive = false;
     for (uint32_t i = 0; i < plant->buds.count; i++) {
@@ -126,12 +140,11 @@ static void set_living(json_t *stats, const FrScene *scene) {
             wood += wood_of(plant);
         }
     }
-    set_count(stats, "living", living);
-    json_object_set_new(stats, "wood", json_real(wood));
+    set_stand(stats, living, wood);
 }
 
 /// What every step of plants that grow in the light took and made.
-static void set_steps(json_t *stats, const FrScene *scene) {
+static void set_steps(json_t *stats, const CliSession *session, const FrScene *scene) {
     if (scene->steps == NULL || scene->steps->len == 0) {
         return;
     }
@@ -146,6 +159,7 @@ static void set_steps(json_t *stats, const FrScene *scene) {
                       (json_int_t)step->queries, "rays_recast", (json_int_t)step->rays_recast);
         if (step->grows_buds) {
             set_buds(row, step);
+            set_stand_of_step(row, session, step->step);
         }
         json_array_append_new(steps, row);
     }
@@ -211,7 +225,7 @@ static json_t *make_stats(const CliSession *session, const char *document, const
         set_count(stats, "triangles", io->triangles);
     }
     set_light(stats, scene);
-    set_steps(stats, scene);
+    set_steps(stats, session, scene);
     json_object_set_new(stats, "seconds", seconds_of(session, scene, io));
     set_count(stats, "peak_bytes", peak_bytes());
     return stats;

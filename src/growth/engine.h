@@ -86,6 +86,8 @@ typedef struct FrGrownPlant {
     uint8_t is_drawn;                           ///< colonize: particles have drawn it
     uint8_t max_order;                          ///< of its axes
     bool is_left_out;                           ///< its seed has no place to stand
+    uint8_t is_dead;                            ///< has starved
+    uint16_t starving;                          ///< steps in a row
     uint32_t first_proposal, proposal_count;    ///< in this round
     uint32_t born, shed, collisions, contested; ///< in this step
 } FrGrownPlant;
@@ -308,6 +310,10 @@ void fr_growth_fates(FrGrowth *growth, FrGrownPlant *plant, int worker);
 void fr_growth_shed(FrGrowth *growth, FrGrownPlant *plant, int worker);
 /// Drops the marked internodes; on what bears one that has fallen, all must have.
 void fr_growth_drop(FrGrowth *growth, FrGrownPlant *plant, const uint8_t *has_fallen, int worker);
+
+// ---- starve.c ---------------------------------------------------------------------------------
+/// Lets a plant die that has gathered too little light for its wood for too long. True if it has.
+bool fr_growth_starve(FrGrowth *growth, FrGrownPlant *plant, int worker);
 
 // ---- envelope.c -------------------------------------------------------------------------------
 /// True if a place, relative to the seed, is within the species' envelope.

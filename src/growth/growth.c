@@ -373,6 +373,16 @@ uint32_t fr_growth_plant_count(const FrGrowth *growth) {
     return growth->plant_count;
 }
 
+bool fr_growth_is_alive(const FrGrowth *growth, uint32_t plant) {
+    FR_ASSERT(plant < growth->plant_count);
+    const FrGrownPlant *of = &growth->plants[plant];
+    bool is_alive = false;
+    for (uint32_t i = 0; i < of->bud_count && !is_alive; i++) {
+        is_alive = of->buds[i].state == FR_LIVE_GROWING;
+    }
+    return is_alive;
+}
+
 FrSeed fr_growth_seed(const FrGrowth *growth, uint32_t plant) {
     FR_ASSERT(plant < growth->plant_count);
     return growth->plants[plant].seed;

@@ -2,6 +2,7 @@
 // the sum of the children's r^e; what has been shed is remembered, so trunks never thin.
 #include "growth/engine.h"
 
+#include <cglm/struct.h>
 #include <math.h>
 
 void fr_growth_pipes(const FrGrownPlant *plant, double taper, double *pipes) {
@@ -30,4 +31,24 @@ void fr_growth_radii(const FrReadySpecies *species, const double *pipes, uint32_
         }
         radii[i] = (float)(params->tip_radius * root);
     }
+}
+
+double fr_growth_wood(const FrGrowth *growth, uint32_t plant) {
+    FR_ASSERT(plant < growth->plant_count);
+    const FrGrownPlant *of = &growth->plants[plant];
+    const FrReadySpecies *species = fr_species_of(growth, of);
+    uint32_t count = of->nodes.count;
+    double *pipes = g_new(double, count + 1), volume = 0;
+    float *radii = g_new(float, count + 1);
+    fr_growth_pipes(of, species->params.taper, pipes);
+    fr_growth_radii(species, pipes, count, radii);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t parent = of->nodes.parent[i];
+        vec3s from = parent == FR_NONE ? (vec3s){{0, 0, 0}} : of->nodes.at[parent];
+        double radius = (double)radii[i];
+        volume += G_PI * radius * radius * (double)glms_vec3_distance(from, of->nodes.at[i]);
+    }
+    g_free(pipes);
+    g_free(radii);
+    return volume;
 }

@@ -96,6 +96,8 @@ FrDigest fr_grown_digest(const FrGrownPlant *plant) {
     const FrGrownNodes *nodes = &plant->nodes;
     FrDigest digest = fr_digest(0, &plant->seed.id, sizeof plant->seed.id);
     digest = fr_digest(digest, plant->seed.at, sizeof plant->seed.at);
+    const uint16_t life[2] = {plant->is_dead, plant->starving};
+    digest = fr_digest(digest, life, sizeof life);
     digest = fr_digest(digest, nodes->parent, nodes->count * sizeof *nodes->parent);
     digest = fr_digest(digest, nodes->at, nodes->count * sizeof *nodes->at);
     digest = fr_digest(digest, nodes->birth, nodes->count * sizeof *nodes->birth);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#define MAGIC "FrGrown1"
+#define MAGIC "FrGrown2"
 
 // ---- writing ----------------------------------------------------------------------------------
 
@@ -27,6 +27,8 @@ static void put_plant(GByteArray *out, const FrGrownPlant *plant) {
     put_count(out, plant->is_left_out);
     put_count(out, plant->max_order);
     put_count(out, plant->is_drawn);
+    put_count(out, plant->is_dead);
+    put_count(out, plant->starving);
     put_count(out, nodes->count);
     put_count(out, plant->axis_count);
     put_count(out, plant->bud_count);
@@ -165,14 +167,15 @@ static bool buds_are_right(const FrGrowth *growth, const FrGrownPlant *plant) {
 }
 
 static bool take_plant(FrBytesReader *reader, const FrGrowth *growth, FrGrownPlant *plant) {
-    uint64_t species, is_left_out, max_order, is_drawn, nodes, axes, buds;
+    uint64_t species, is_left_out, max_order, is_drawn, is_dead, starving, nodes, axes, buds;
     if (!fr_bytes_take(reader, plant->seed.at, sizeof plant->seed.at) ||
         !fr_bytes_take(reader, &plant->seed.id, sizeof plant->seed.id) ||
         growth->species_count == 0 ||
         !fr_bytes_take_count(reader, growth->species_count - 1, &species) ||
         !fr_bytes_take_count(reader, 1, &is_left_out) ||
         !fr_bytes_take_count(reader, 255, &max_order) ||
-        !fr_bytes_take_count(reader, 1, &is_drawn) ||
+        !fr_bytes_take_count(reader, 1, &is_drawn) || !fr_bytes_take_count(reader, 1, &is_dead) ||
+        !fr_bytes_take_count(reader, UINT16_MAX, &starving) ||
         !fr_bytes_take_count(reader, reader->left, &nodes) ||
         !fr_bytes_take_count(reader, reader->left, &axes) ||
         !fr_bytes_take_count(reader, reader->left, &buds) ||
@@ -183,6 +186,8 @@ static bool take_plant(FrBytesReader *reader, const FrGrowth *growth, FrGrownPla
     plant->is_left_out = (uint8_t)is_left_out;
     plant->max_order = (uint8_t)max_order;
     plant->is_drawn = (uint8_t)is_drawn;
+    plant->is_dead = (uint8_t)is_dead;
+    plant->starving = (uint16_t)starving;
     plant->key = fr_key_child(fr_key_root((uint64_t)growth->params.seed), plant->seed.id);
     fr_grown_reserve(plant, (uint32_t)nodes, (uint32_t)axes, (uint32_t)buds);
     FrGrownNodes *into = &plant->nodes;

@@ -121,7 +121,9 @@ static void begin_plants(void *data, size_t begin, size_t end, int worker) {
             }
             bud->is_reached = 0;
         }
-        fr_growth_fates(growth, plant, worker);
+        if (!fr_growth_starve(growth, plant, worker)) {
+            fr_growth_fates(growth, plant, worker);
+        }
     }
 }
 

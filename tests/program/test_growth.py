@@ -100,6 +100,17 @@ def forest(folder):
         assert key in last, key
 
 
+def thinning(folder):
+    """--stats counts the living and their wood after every step."""
+    stand = tap.SOURCE / "examples" / "self-thinning.frond"
+    stats = tap.statistics(stand, "--steps", 16)
+    living = [step["living"] for step in stats["per_step"]]
+    wood = [step["wood"] for step in stats["per_step"]]
+    assert living[0] == 300 and 0 < living[-1] < 300, living
+    assert all(a >= b for a, b in zip(living, living[1:])), living
+    assert stats["living"] == living[-1] and abs(stats["wood"] / wood[-1] - 1) < 0.05
+
+
 def checked_soon(folder):
     """What is wrong with a growth is said without growing it."""
     began = time.monotonic()
@@ -115,6 +126,7 @@ TESTS = [("/program/growth/every step has one digest for any number of threads",
          ("/program/growth/damaged checkpoints are refused", damaged),
          ("/program/growth/frames show the steps", frames),
          ("/program/growth/the forest has the numbers of Figure 8", forest),
+         ("/program/growth/the living and their wood are counted", thinning),
          ("/program/growth/checking does not grow", checked_soon)]
 
 if __name__ == "__main__":
