@@ -141,6 +141,24 @@ FR_API FR_MUST_USE FrStatus fr_growth_plant(const FrGrowth *growth, uint32_t pla
                                             const FrContext *context, FrPlant **grown);
 /// Particles that are left, and whether each draws a bud now. Free with g_free().
 FR_API FrParticle *fr_growth_particles(const FrGrowth *growth, uint64_t *count, bool **is_active);
+/// A bud that grows or sleeps, as it was at the end of the last step.
+typedef struct FrGrowthBud {
+    vec3s at, direction; ///< direction: unit, of its last internode or of the one to come
+    vec3s towards;       ///< to the light, unit; 0 where it was not looked for
+    float light;         ///< 0 to 1
+    uint32_t plant;
+    bool is_growing;
+} FrGrowthBud;
+/// All buds (FrGrowthBud), plant by plant. Free with g_array_unref().
+FR_API GArray *fr_growth_buds(const FrGrowth *growth);
+/// A cube of occupied space.
+typedef struct FrGrowthCell {
+    double min[3], width;
+    uint32_t plant; ///< whose branch is in it; FR_NONE: an obstacle, or several in one cube
+} FrGrowthCell;
+/// The cells that branches and obstacles occupy, the ground left out (FrGrowthCell). Where they are
+/// more than `most`, cubes of 8, 16, 32 … cells that hold any. Free with g_array_unref().
+FR_API GArray *fr_growth_cells(const FrGrowth *growth, uint32_t most);
 /// True if a cell at this point is taken by a branch or an obstacle.
 FR_API bool fr_growth_is_taken(const FrGrowth *growth, const double point[3]);
 

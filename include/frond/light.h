@@ -112,6 +112,20 @@ typedef struct FrLightStats {
     uint64_t bytes;      ///< held in all
 } FrLightStats;
 
+/// A part of a photon's way: from the lamp or the surface that it left to what it met.
+typedef struct FrLightRay {
+    vec3s from, to;
+    uint32_t photon, bounce; ///< bounce 0: from the lamp
+    bool is_met;             ///< it ends at a surface; else it is cut off where nothing is any more
+} FrLightRay;
+
+/// A cube of the structure by which rays are found.
+typedef struct FrLightCell {
+    double min[3], width;
+    uint32_t level;     ///< 0: all of it; each level is half as wide
+    uint32_t ray_count; ///< that pass through it
+} FrLightCell;
+
 typedef struct FrLight FrLight;
 
 FR_API void fr_light_free(FrLight *light);
@@ -131,6 +145,13 @@ FR_API void fr_light_forget(FrLight *light);
 /// backend does not know it.
 FR_API const double *fr_light_absorbed(const FrLight *light, uint32_t stand);
 FR_API FrLightStats fr_light_stats(const FrLight *light);
+/// The whole ways of up to `most` photons, evenly chosen of all (FrLightRay, by photon and bounce).
+/// Empty for backends that keep no rays. Free with g_array_unref().
+FR_API GArray *fr_light_rays(const FrLight *light, uint32_t most);
+/// The innermost cells that were made for the points asked for since the last change (FrLightCell);
+/// where they are more than `most`, those of the deepest level that has no more. Empty for backends
+/// that keep no rays. Free with g_array_unref().
+FR_API GArray *fr_light_cells(const FrLight *light, uint32_t most);
 
 /// How bright the sky of a lamp of kind FR_LAMP_SKY is in a unit direction, as a part of its
 /// brightness at the zenith; 0 below the horizon.

@@ -29,6 +29,9 @@ FR_API FR_MUST_USE FrStatus fr_lighting_query(FrLighting *lighting, const vec3s 
 FR_API FR_MUST_USE FrStatus fr_lighting_field(FrLighting *lighting, const FrLightPlace *place,
                                               vec3s min, vec3s max, uint32_t cells,
                                               const FrContext *context, FrLightField **field);
+/// What its backend keeps: fr_light_rays(), fr_light_cells().
+FR_API GArray *fr_lighting_rays(const FrLighting *lighting, uint32_t most);
+FR_API GArray *fr_lighting_cells(const FrLighting *lighting, uint32_t most);
 /// The points asked for are done with.
 FR_API void fr_lighting_forget(FrLighting *lighting);
 FR_API FrLightStats fr_lighting_stats(const FrLighting *lighting);

@@ -36,6 +36,23 @@ typedef enum FrLightAt {
     FR_LIGHT_AT_ORGANS, ///< at every leaf, flower and tip of a stem
 } FrLightAt;
 
+/// What the brightest of these colours stands for: full light, or nearly the brightest of `count`
+/// values where the scene has no measure of full light.
+FR_API float fr_light_scale_top(const FrScene *scene, const float *light, size_t count);
+/// The colour of a part of the scale, sRGB: from black over blue, red and yellow to white, evenly
+/// brighter.
+FR_API void fr_light_scale_paint(uint8_t *pixel, float part);
+/// Where light is asked for, in the world.
+typedef struct FrLightPlaces {
+    GArray *at;         ///< vec3s, owned
+    float radius, line; ///< of a ball there and of the longest line to the light, m
+} FrLightPlaces;
+
+/// `count` is as in fr_render_light_points(). FR_ERR_LIMIT if they would take more than
+/// FrLimits.bytes. On FR_OK free `at` with g_array_unref().
+FR_API FR_MUST_USE FrStatus fr_light_places(const FrScene *scene, FrLightAt where, uint32_t count,
+                                            const FrContext *context, FrLightPlaces *places);
+
 /// The same light at points, as balls in false colours seen through a view, among plants and
 /// obstacles in grey. A line leads from each to the light; its length is the confidence. `count`
 /// points lie along the longest side of the grid, 1 to 128. Of the parameters, size and view count.

@@ -121,6 +121,9 @@ FR_API const FrParamTable *fr_terrain_table(void);
 FR_API const FrParamTable *fr_lamp_table(void);
 FR_API const FrParamTable *fr_sun_table(void);
 FR_API const FrParamTable *fr_light_table(void);
+/// Where the sun stands by date, time and place, in radians as fr_light_sun() has them. False if
+/// the date is none.
+FR_API bool fr_sun_where(const FrSunParams *sun, double *azimuth, double *elevation);
 
 /// What stands around the plants of a document.
 typedef struct FrSurroundings {

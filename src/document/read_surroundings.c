@@ -129,6 +129,18 @@ static bool parse_date(const char *text, int date[3]) {
            g_date_valid_dmy((GDateDay)date[2], (GDateMonth)date[1], (GDateYear)date[0]);
 }
 
+bool fr_sun_where(const FrSunParams *sun, double *azimuth, double *elevation) {
+    int date[3];
+    if (!parse_date(sun->date, date)) {
+        return false;
+    }
+    FrSunPosition position = fr_light_sun(date[0], date[1], date[2] + (sun->time - sun->zone) / 24,
+                                          sun->latitude, sun->longitude);
+    *azimuth = position.azimuth;
+    *elevation = position.elevation;
+    return true;
+}
+
 /// The sun's angles follow from the date; whoever gives both is told.
 static void read_sun(FrReader *reader, uint32_t node, uint32_t scene) {
     fr_read_check_children(reader, node, FR_ELEMENT_SUN);
@@ -141,16 +153,11 @@ static void read_sun(FrReader *reader, uint32_t node, uint32_t scene) {
             fr_read_error(reader, "two-suns", given->name, "<sun> says where the sun stands");
         }
     }
-    int date[3];
-    if (!parse_date(sun->date, date)) {
+    FrSceneParams *params = &reader->document->scene;
+    if (!fr_sun_where(sun, &params->sun_azimuth, &params->sun_elevation)) {
         fr_read_error(reader, "bad-date", fr_read_value_place(reader, node, "date"),
                       "a date is year-month-day, like 2025-06-21, from 1900 to 2100");
-        return;
     }
-    FrSunPosition position = fr_light_sun(date[0], date[1], date[2] + (sun->time - sun->zone) / 24,
-                                          sun->latitude, sun->longitude);
-    reader->document->scene.sun_azimuth = position.azimuth;
-    reader->document->scene.sun_elevation = position.elevation;
 }
 
 static void read_light(FrReader *reader, uint32_t node) {

@@ -233,6 +233,8 @@ FrStatus fr_light_density_new(const FrDensityParams *params, const FrContext *co
         .query = query,
         .forget = forget,
         .absorbed = absorbed,
+        .rays = fr_density_rays,
+        .cells = fr_density_cells,
         .stats = stats,
         .free = free_density,
     };

@@ -24,3 +24,8 @@ typedef struct FrDensity {
 
 /// How the backend estimates: params and power of a photon.
 FrEstimator fr_density_estimator(const FrDensity *density);
+
+// density_shown.c, for fr_light_rays() and fr_light_cells().
+
+void fr_density_rays(const FrLight *light, uint32_t most, GArray *rays);
+void fr_density_cells(const FrLight *light, uint32_t most, GArray *cells);

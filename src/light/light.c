@@ -69,3 +69,19 @@ FrLightStats fr_light_stats(const FrLight *light) {
     light->backend->stats(light, &stats);
     return stats;
 }
+
+GArray *fr_light_rays(const FrLight *light, uint32_t most) {
+    GArray *rays = g_array_new(FALSE, FALSE, sizeof(FrLightRay));
+    if (light->has_scene && light->backend->rays != NULL) {
+        light->backend->rays(light, most, rays);
+    }
+    return rays;
+}
+
+GArray *fr_light_cells(const FrLight *light, uint32_t most) {
+    GArray *cells = g_array_new(FALSE, FALSE, sizeof(FrLightCell));
+    if (light->has_scene && light->backend->cells != NULL) {
+        light->backend->cells(light, most, cells);
+    }
+    return cells;
+}

@@ -3,7 +3,6 @@
 #include "render/render.h"
 
 #include "frond/lighting.h"
-#include "render/light_scale.h"
 
 #include <cglm/struct.h>
 #include <math.h>

@@ -5,17 +5,10 @@
 #include "frond/lighting.h"
 #include "render/camera.h"
 #include "render/colour.h"
-#include "render/light_scale.h"
 
 #include <math.h>
 #include <string.h>
 
-// Radius and longest line of a ball, of the distance between the points of a grid …
-#define GRID_RADIUS 0.11F
-#define GRID_LINE 0.8F
-// … and at organs of the size of the scene.
-#define ORGAN_RADIUS 0.004F
-#define ORGAN_LINE 0.03F
 // No ball is smaller, in pixels; one that would hide so much of the picture is too near to the eye
 // and left out.
 #define LEAST_RADIUS 1.5F
@@ -29,107 +22,22 @@ typedef struct Canvas {
     const FrWorld *world;
 } Canvas;
 
-/// What is asked for, in the world.
+/// What is asked for, and what was answered.
 typedef struct Points {
-    GArray *at; ///< vec3s
+    FrLightPlaces places;
     FrLightAnswer *answers;
-    float radius, line; ///< m
 } Points;
-
-// ---- where to ask -----------------------------------------------------------------------------
-
-static float size_of(const double min[3], const double max[3]) {
-    double size = 0;
-    for (int c = 0; c < 3; c++) {
-        size = fmax(size, max[c] - min[c]);
-    }
-    return size > 0 ? (float)size : 1;
-}
-
-static void place_grid(const FrScene *scene, uint32_t count, Points *points) {
-    double min[3], max[3];
-    uint32_t cells[3];
-    fr_scene_bounds(scene, min, max);
-    float spacing = size_of(min, max) / (float)count;
-    for (int c = 0; c < 3; c++) {
-        double size = fmax(max[c] - min[c], 0);
-        cells[c] = (uint32_t)fmax(round(size / (double)spacing), 1);
-        min[c] = 0.5 * (min[c] + max[c]) - 0.5 * (cells[c] - 1.0) * (double)spacing;
-    }
-    for (uint32_t i = 0; min[0] <= max[0] && i < cells[0] * cells[1] * cells[2]; i++) {
-        uint32_t step[3] = {i % cells[0], i / cells[0] % cells[1], i / cells[0] / cells[1]};
-        vec3s at;
-        for (int c = 0; c < 3; c++) {
-            at.raw[c] = (float)(min[c] + step[c] * (double)spacing);
-        }
-        g_array_append_val(points->at, at);
-    }
-    points->radius = GRID_RADIUS * spacing;
-    points->line = GRID_LINE * spacing;
-}
-
-static void add_local(const FrStand *stand, vec3s local, GArray *points) {
-    vec3s at = glms_vec3_rotate(glms_vec3_scale(local, (float)stand->scale), (float)stand->turn,
-                                (vec3s){{0, 0, 1}});
-    for (int c = 0; c < 3; c++) {
-        at.raw[c] = (float)((double)at.raw[c] + stand->at[c]);
-    }
-    g_array_append_val(points, at);
-}
-
-static bool is_tip(const FrPlant *plant, uint32_t node) {
-    uint32_t axis = plant->nodes.axis[node];
-    return node + 1 >= plant->nodes.count || plant->nodes.axis[node + 1] != axis ||
-           plant->nodes.parent[node + 1] != node;
-}
-
-static void place_at_organs(const FrScene *scene, Points *points) {
-    double min[3], max[3];
-    fr_scene_bounds(scene, min, max);
-    for (guint s = 0; s < fr_scene_stand_count(scene); s++) {
-        const FrStand *stand = &g_array_index(scene->stands, FrStand, s);
-        const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, stand->plant).plant;
-        for (uint32_t i = 0; i < plant->organs.count; i++) {
-            vec3s at;
-            versors rotation;
-            if ((plant->organs.flags[i] & (FR_SHED | FR_HIDDEN)) == 0) {
-                fr_plant_organ_pose(plant, i, &at, &rotation);
-                add_local(stand, at, points->at);
-            }
-        }
-        for (uint32_t i = 0; i < plant->nodes.count; i++) {
-            if (is_tip(plant, i) && (plant->nodes.flags[i] & (FR_SHED | FR_HIDDEN)) == 0) {
-                add_local(stand, plant->nodes.position[i], points->at);
-            }
-        }
-    }
-    points->radius = ORGAN_RADIUS * size_of(min, max);
-    points->line = ORGAN_LINE * size_of(min, max);
-}
-
-/// Refuses more than memory is allowed for, before it is taken.
-static FrStatus count_organs(const FrScene *scene, const FrContext *context) {
-    uint64_t count = 0;
-    for (guint s = 0; s < scene->stands->len; s++) {
-        const FrStand *stand = &g_array_index(scene->stands, FrStand, s);
-        const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, stand->plant).plant;
-        count = fr_count_add(count, (uint64_t)plant->organs.count + plant->nodes.count);
-    }
-    return fr_limit_check(fr_count_multiply(count, sizeof(vec3s) + sizeof(FrLightAnswer)),
-                          context->limits.bytes, "bytes", "the picture of light", (FrSpan){0},
-                          context->diags);
-}
 
 static FrStatus ask(const FrScene *scene, Points *points, const FrContext *context) {
     FrLighting *lighting = NULL;
-    points->answers = g_new0(FrLightAnswer, points->at->len + 1);
+    points->answers = g_new0(FrLightAnswer, points->places.at->len + 1);
     FrStatus status = fr_lighting_new(scene, context, &lighting);
     if (status == FR_OK) {
         status = fr_lighting_update(lighting, scene, context);
     }
     if (status == FR_OK) {
-        status = fr_lighting_query(lighting, (const vec3s *)(void *)points->at->data,
-                                   points->at->len, context, points->answers);
+        status = fr_lighting_query(lighting, (const vec3s *)(void *)points->places.at->data,
+                                   points->places.at->len, context, points->answers);
     }
     fr_lighting_free(lighting);
     return status;
@@ -235,7 +143,7 @@ static void draw_line(const Canvas *canvas, vec3s from, vec3s to, const uint8_t 
 }
 
 static void draw_points(const Canvas *canvas, const FrScene *scene, const Points *points) {
-    size_t count = points->at->len;
+    size_t count = points->places.at->len;
     float *light = g_new(float, count + 1);
     for (size_t i = 0; i < count; i++) {
         light[i] = points->answers[i].intensity;
@@ -243,14 +151,14 @@ static void draw_points(const Canvas *canvas, const FrScene *scene, const Points
     float top = fr_light_scale_top(scene, light, count);
     for (size_t i = 0; i < count; i++) {
         const FrLightAnswer *answer = &points->answers[i];
-        vec3s at = g_array_index(points->at, vec3s, i);
+        vec3s at = g_array_index(points->places.at, vec3s, i);
         for (int c = 0; c < 3; c++) {
             at.raw[c] = (float)((double)at.raw[c] - canvas->world->origin[c]);
         }
         uint8_t colour[3];
         fr_light_scale_paint(colour, light[i] / top);
-        float length = points->line * answer->confidence;
-        draw_ball(canvas, at, points->radius, colour);
+        float length = points->places.line * answer->confidence;
+        draw_ball(canvas, at, points->places.radius, colour);
         draw_line(canvas, at, glms_vec3_muladds(answer->direction, length, at), colour);
     }
     g_free(light);
@@ -292,23 +200,18 @@ FrStatus fr_render_light_points(const FrScene *scene, FrLightAt where, uint32_t 
     if (status == FR_OK) {
         status = fr_render_find_view(scene, params->view, context, &view);
     }
-    if (status == FR_OK && where == FR_LIGHT_AT_ORGANS) {
-        status = count_organs(scene, context);
+    Points points = {0};
+    if (status == FR_OK) {
+        status = fr_light_places(scene, where, count, context, &points.places);
     }
     if (status != FR_OK) {
         return status;
-    }
-    Points points = {.at = g_array_new(FALSE, FALSE, sizeof(vec3s))};
-    if (where == FR_LIGHT_AT_GRID) {
-        place_grid(scene, count, &points);
-    } else {
-        place_at_organs(scene, &points);
     }
     status = ask(scene, &points, context);
     if (status == FR_OK) {
         status = draw(scene, &points, view, params, skin, context, image);
     }
     g_free(points.answers);
-    g_array_unref(points.at);
+    g_array_unref(points.places.at);
     return status;
 }

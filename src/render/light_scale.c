@@ -1,5 +1,5 @@
 // The colours in which light is shown.
-#include "render/light_scale.h"
+#include "frond/render.h"
 
 #include <cglm/struct.h>
 #include <math.h>

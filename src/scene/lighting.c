@@ -274,6 +274,14 @@ FrStatus fr_lighting_field(FrLighting *lighting, const FrLightPlace *place, vec3
     return fr_light_field_new(lighting->light, place, min, max, cells, context, field);
 }
 
+GArray *fr_lighting_rays(const FrLighting *lighting, uint32_t most) {
+    return fr_light_rays(lighting->light, most);
+}
+
+GArray *fr_lighting_cells(const FrLighting *lighting, uint32_t most) {
+    return fr_light_cells(lighting->light, most);
+}
+
 void fr_lighting_forget(FrLighting *lighting) {
     fr_light_forget(lighting->light);
 }

@@ -35,9 +35,14 @@ struct StudioBuilder {
     StudioBuilt *built; // to be collected; NULL: none
     bool is_held;       // collected and not released
     bool is_over;       // the thread shall end
+    bool is_look_due;   // what stands shall be looked at
+    bool is_looking;    // that is what runs
     uint64_t collected; // greatest revision collected so far
     gint fraction;      // atomic, in thousandths
     // Of the thread alone:
+    StudioWatch watch; // NULL: nobody looks
+    void *watcher;
+    bool is_growing; // what stands grows bud by bud
     FrRebuild *rebuild;
     StudioGrower *grower;
     FrPool *pool;
@@ -263,6 +268,9 @@ static void deliver(StudioBuilder *builder, StudioBuilt *built) {
 }
 
 static void serve(StudioBuilder *builder, Request *request, FrProgress *progress) {
+    if (builder->watch != NULL) {
+        builder->watch(builder->watcher, NULL, NULL);
+    }
     FrContext context = fr_context_default();
     context.pool = builder->pool;
     context.progress = progress;
@@ -271,27 +279,49 @@ static void serve(StudioBuilder *builder, Request *request, FrProgress *progress
     built->revision = request->revision;
     built->diags = context.diags;
     built->status = build(builder, request, &context, built);
+    if (built->view != NULL) {
+        builder->is_growing = built->is_growing;
+    }
     deliver(builder, built);
+}
+
+static void look(StudioBuilder *builder, FrProgress *progress) {
+    if (builder->watch == NULL || builder->view == NULL) {
+        return;
+    }
+    FrContext context = fr_context_default();
+    context.pool = builder->pool;
+    context.progress = progress;
+    StudioSeen seen = {builder->view->scene,
+                       builder->is_growing ? studio_grower_growth(builder->grower) : NULL};
+    builder->watch(builder->watcher, &seen, &context);
 }
 
 static gpointer run(gpointer data) {
     StudioBuilder *builder = data;
     g_mutex_lock(&builder->lock);
     while (!builder->is_over) {
-        if (builder->waiting == NULL) {
+        if (builder->waiting == NULL && !builder->is_look_due) {
             g_cond_wait(&builder->changed, &builder->lock);
             continue;
         }
         Request *request = g_steal_pointer(&builder->waiting);
+        builder->is_looking = request == NULL;
+        builder->is_look_due = request != NULL; // what it makes is looked at next
         FrProgress *progress = fr_progress_new(report, builder);
         builder->progress = progress;
         builder->began = g_get_monotonic_time();
         g_atomic_int_set(&builder->fraction, 0);
         g_mutex_unlock(&builder->lock);
-        serve(builder, request, progress);
+        if (request != NULL) {
+            serve(builder, request, progress);
+        } else {
+            look(builder, progress);
+        }
         request_free(request);
         g_mutex_lock(&builder->lock);
         builder->progress = NULL;
+        builder->is_looking = false;
         fr_progress_free(progress);
     }
     g_mutex_unlock(&builder->lock);
@@ -326,6 +356,9 @@ void studio_builder_free(StudioBuilder *builder) {
     g_cond_broadcast(&builder->changed);
     g_mutex_unlock(&builder->lock);
     g_thread_join(builder->thread);
+    if (builder->watch != NULL) {
+        builder->watch(builder->watcher, NULL, NULL);
+    }
     studio_painter_free(builder->painter);
     studio_view_free(builder->view);
     built_free(builder->built);
@@ -345,9 +378,25 @@ void studio_builder_request(StudioBuilder *builder, FrSource *source, const char
     g_mutex_lock(&builder->lock);
     request_free(builder->waiting);
     builder->waiting = request;
-    if (builder->progress != NULL && seconds_since(builder->began) > patience) {
+    if (builder->progress != NULL &&
+        (builder->is_looking || seconds_since(builder->began) > patience)) {
         fr_progress_cancel(builder->progress);
     }
+    g_cond_broadcast(&builder->changed);
+    g_mutex_unlock(&builder->lock);
+}
+
+void studio_builder_watch(StudioBuilder *builder, StudioWatch watch, void *user) {
+    builder->watch = watch;
+    builder->watcher = user;
+}
+
+void studio_builder_look(StudioBuilder *builder) {
+    g_mutex_lock(&builder->lock);
+    if (builder->is_looking) {
+        fr_progress_cancel(builder->progress);
+    }
+    builder->is_look_due = true;
     g_cond_broadcast(&builder->changed);
     g_mutex_unlock(&builder->lock);
 }
@@ -361,7 +410,8 @@ void studio_builder_cancel(StudioBuilder *builder) {
 bool studio_builder_is_busy(StudioBuilder *builder, double *fraction, double *seconds) {
     g_mutex_lock(&builder->lock);
     bool is_running = builder->progress != NULL;
-    bool is_busy = is_running || builder->waiting != NULL || builder->built != NULL;
+    bool is_busy =
+        is_running || builder->waiting != NULL || builder->built != NULL || builder->is_look_due;
     *seconds = is_running ? seconds_since(builder->began) : 0;
     g_mutex_unlock(&builder->lock);
     *fraction = g_atomic_int_get(&builder->fraction) / 1000.0;
@@ -401,7 +451,8 @@ bool studio_builder_is_painting(StudioBuilder *builder) {
 bool studio_builder_pick(StudioBuilder *builder, const double origin[3], const double direction[3],
                          double spread, StudioPicked *picked) {
     g_mutex_lock(&builder->lock); // nothing begins while it is held
-    const FrScene *scene = builder->progress == NULL ? fr_rebuild_scene(builder->rebuild) : NULL;
+    bool is_still = builder->progress == NULL || builder->is_looking;
+    const FrScene *scene = is_still ? fr_rebuild_scene(builder->rebuild) : NULL;
     FrPick pick;
     bool is_met = scene != NULL && fr_scene_pick(scene, origin, direction, spread, &pick);
     if (is_met) {

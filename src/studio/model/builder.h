@@ -4,6 +4,7 @@
 /// is wrong. Pictures of materials are made on a thread of their own, once for each look.
 #pragma once
 
+#include "frond/growth.h"
 #include "studio/model/view.h"
 
 typedef struct StudioBuilder StudioBuilder;
@@ -50,6 +51,17 @@ typedef struct StudioPicked {
     GArray *lines; ///< float[3], in pairs, in the scene's coordinates
 } StudioPicked;
 
+/// What stands, for who looks at it between builds; borrowed for the time of the call.
+typedef struct StudioSeen {
+    const FrScene *scene;
+    const FrGrowth *growth; ///< NULL: nothing grows bud by bud
+} StudioSeen;
+
+/// Looks at what stands. Called on the builder's thread, when it has changed or
+/// studio_builder_look() was called, and nothing is to be built; cancelled by the next request.
+/// `seen` NULL: what stands is about to change or go, and nothing of it may be kept.
+typedef void (*StudioWatch)(void *user, const StudioSeen *seen, const FrContext *context);
+
 StudioBuilder *studio_builder_new(StudioWake wake, void *user);
 /// Cancels what runs, waits for it and frees everything.
 void studio_builder_free(StudioBuilder *builder);
@@ -60,6 +72,10 @@ typedef struct StudioMoment {
     int64_t step;
 } StudioMoment;
 
+/// Who looks; before the first request.
+void studio_builder_watch(StudioBuilder *builder, StudioWatch watch, void *user);
+/// Asks for another look.
+void studio_builder_look(StudioBuilder *builder);
 /// Asks for a document at a moment.
 void studio_builder_request(StudioBuilder *builder, FrSource *source, const char *folder,
                             uint64_t revision, StudioMoment moment);

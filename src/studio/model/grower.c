@@ -111,6 +111,10 @@ uint64_t studio_grower_step_count(const StudioGrower *grower) {
     return grower->simulation == NULL ? 0 : fr_simulation_step_count(grower->simulation);
 }
 
+const FrGrowth *studio_grower_growth(const StudioGrower *grower) {
+    return grower->simulation == NULL ? NULL : fr_simulation_growth(grower->simulation);
+}
+
 FrStatus studio_grower_view(StudioGrower *grower, const FrContext *context, StudioView **view) {
     *view = NULL;
     const FrScene *scene;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "frond/document.h"
+#include "frond/growth.h"
 #include "studio/model/view.h"
 
 typedef struct StudioGrower StudioGrower;
@@ -22,6 +23,8 @@ FR_MUST_USE FrStatus studio_grower_go(StudioGrower *grower, int64_t step, const 
 /// The step it is at, and how many the document asks for.
 uint64_t studio_grower_step(const StudioGrower *grower);
 uint64_t studio_grower_step_count(const StudioGrower *grower);
+/// How its plants grow, to be looked at; NULL: nothing has been shown, or nothing grows bud by bud.
+const FrGrowth *studio_grower_growth(const StudioGrower *grower);
 /// What stands now; borrowed until it goes on. Free with studio_view_free().
 FR_MUST_USE FrStatus studio_grower_view(StudioGrower *grower, const FrContext *context,
                                         StudioView **view);

@@ -1,0 +1,13 @@
+/// @file growth_marks.h
+/// What growing plants feel and fill, as marks of an overlay.
+#pragma once
+
+#include "frond/growth.h"
+#include "studio/model/overlay.h"
+
+/// Buds in the false colours of their light, with a line to it; those that sleep smaller and grey.
+StudioOverlay *studio_bud_marks(const FrGrowth *growth);
+/// Cells that branches occupy, each plant in a colour of its own, and those of obstacles in grey.
+StudioOverlay *studio_voxel_marks(const FrGrowth *growth);
+/// Particles: blue where they draw a bud, else black.
+StudioOverlay *studio_particle_marks(const FrGrowth *growth);
