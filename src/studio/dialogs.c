@@ -102,6 +102,7 @@ static const Shortcut rows[] = {
     {"Panels", "<Alt>1", "Graph"},
     {NULL, "<Alt>2", "Contents"},
     {NULL, "<Alt>3", "Text"},
+    {NULL, "<Alt>4", "Light"},
     {NULL, "F1", "Help"},
 };
 

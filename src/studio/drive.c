@@ -75,12 +75,31 @@ static GtkWidget *find_widget(GtkWidget *within, const char *name) {
     return found;
 }
 
+// Where "at:x,y,z" of the scene is in the viewport.
+static bool where_in_picture(StudioViewport *viewport, const char *name, graphene_rect_t *box) {
+    double at[3], x, y;
+    if (sscanf(name, "at:%lf,%lf,%lf", &at[0], &at[1], &at[2]) != 3 ||
+        !studio_camera_project(studio_viewport_camera(viewport), studio_viewport_aspect(viewport),
+                               at, &x, &y)) {
+        return false;
+    }
+    double width = gtk_widget_get_width(GTK_WIDGET(viewport));
+    double height = gtk_widget_get_height(GTK_WIDGET(viewport));
+    *box =
+        GRAPHENE_RECT_INIT((float)(0.5 * (1 + x) * width), (float)(0.5 * (1 - y) * height), 0, 0);
+    return true;
+}
+
 static void where(Drive *drive, char *const *words, const char *name) {
     (void)words;
     StudioWindow *window = drive->window;
     graphene_rect_t box;
     GtkWidget *from = GTK_WIDGET(window->graph);
     bool is_there = studio_graph_panel_where(window->graph, name, &box);
+    if (!is_there && where_in_picture(window->viewport, name, &box)) {
+        is_there = true;
+        from = GTK_WIDGET(window->viewport);
+    }
     if (!is_there) {
         from = find_widget(GTK_WIDGET(window), name);
         is_there = from != NULL;

@@ -30,6 +30,7 @@ static void add_keys(GtkApplication *application) {
         {"win.side('graph')", {"<Alt>1"}},
         {"win.side('things')", {"<Alt>2"}},
         {"win.side('text')", {"<Alt>3"}},
+        {"win.side('light')", {"<Alt>4"}},
         {"win.preferences", {"<Control>comma"}},
         {"win.shortcuts", {"<Control>question"}},
         {"win.help", {"F1"}},

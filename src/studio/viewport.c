@@ -162,6 +162,15 @@ StudioCamera *studio_viewport_camera(StudioViewport *viewport) {
     return &viewport->camera;
 }
 
+void studio_viewport_bounds(StudioViewport *viewport, double min[3], double max[3]) {
+    if (viewport->renderer != NULL) {
+        studio_store_bounds(studio_renderer_store(viewport->renderer), min, max);
+    } else {
+        min[0] = min[1] = min[2] = 1;
+        max[0] = max[1] = max[2] = -1;
+    }
+}
+
 void studio_viewport_frame(StudioViewport *viewport, const double min[3], const double max[3]) {
     studio_camera_frame(&viewport->camera, min, max, studio_viewport_aspect(viewport));
     studio_viewport_update(viewport);

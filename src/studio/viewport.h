@@ -47,6 +47,8 @@ void studio_viewport_set_overlay(StudioViewport *viewport, const char *name,
                                  StudioOverlay *overlay);
 /// Marks lines, pairs of points, as what was picked: the overlay "picked".
 void studio_viewport_highlight(StudioViewport *viewport, const float (*points)[3], uint32_t count);
+/// The box around everything that stands; min > max if there is nothing.
+void studio_viewport_bounds(StudioViewport *viewport, double min[3], double max[3]);
 /// Width over height of the picture.
 double studio_viewport_aspect(StudioViewport *viewport);
 /// Whether the fine picture of what it holds is shown.

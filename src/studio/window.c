@@ -59,6 +59,7 @@ static void update_panels(StudioWindow *window) {
     studio_things_panel_show(window->things, window->document, selected);
     studio_inspector_show(window->inspector, window->document, selected, window->diags);
     studio_time_strip_show(window->strip, window->document, studio_window_plant(window));
+    studio_light_mode_update(window->light);
 }
 
 void studio_window_select(StudioWindow *window, uint32_t element) {
@@ -294,6 +295,7 @@ static void studio_window_dispose(GObject *object) {
     g_clear_pointer(&window->builder, studio_builder_free);
     while (g_idle_remove_by_data(window)) {
     }
+    g_clear_pointer(&window->light, studio_light_mode_free);
     drop_document(window);
     g_clear_pointer(&window->selected, g_free);
     g_clear_pointer(&window->plant, g_free);

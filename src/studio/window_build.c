@@ -55,6 +55,7 @@ static void take(StudioWindow *window, const StudioBuilt *built) {
     studio_window_update_problem(window);
     studio_inspector_set_diags(window->inspector, window->diags);
     studio_window_show_texts(window);
+    studio_light_mode_update(window->light);
 }
 
 void studio_window_collect(StudioWindow *window) {
@@ -71,6 +72,7 @@ void studio_window_collect(StudioWindow *window) {
         studio_viewport_add_picture(window->viewport, &picture);
         fr_image_unref(picture.image);
     }
+    studio_light_mode_collect(window->light);
 }
 
 static gboolean on_idle(gpointer data) {
@@ -80,7 +82,7 @@ static gboolean on_idle(gpointer data) {
     return G_SOURCE_REMOVE;
 }
 
-static void wake(void *user) {
+void studio_window_wake(void *user) {
     StudioWindow *window = user;
     if (g_atomic_int_compare_and_exchange(&window->is_woken, 0, 1)) {
         g_idle_add_full(G_PRIORITY_DEFAULT, on_idle, window, NULL);
@@ -93,6 +95,10 @@ static gboolean on_poll(gpointer data) {
     bool is_busy = studio_builder_is_busy(window->builder, &fraction, &seconds);
     bool is_long = is_busy && seconds > busy_after;
     gtk_revealer_set_reveal_child(GTK_REVEALER(window->busy), is_long);
+    if (is_long) {
+        gtk_label_set_text(GTK_LABEL(window->busy_text),
+                           studio_builder_is_looking(window->builder) ? "Light" : "Building");
+    }
     gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(window->busy_bar), CLAMP(fraction, 0, 1));
     if (!is_busy) {
         window->progress = 0;
@@ -104,7 +110,8 @@ static gboolean on_poll(gpointer data) {
 
 void studio_window_start_builder(StudioWindow *window) {
     if (window->builder == NULL) {
-        window->builder = studio_builder_new(wake, window);
+        window->builder = studio_builder_new(studio_window_wake, window);
+        studio_light_mode_watch(window->light);
     }
     window->asked = window->shown = 0;
 }
@@ -122,6 +129,10 @@ void studio_window_request(StudioWindow *window) {
     window->asked_moment = window->moment;
     studio_builder_request(window->builder, studio_document_source(window->document),
                            studio_document_folder(window->document), revision, window->moment);
+    studio_window_poll(window);
+}
+
+void studio_window_poll(StudioWindow *window) {
     if (window->progress == 0) {
         window->progress = g_timeout_add(POLL_MILLISECONDS, on_poll, window);
     }

@@ -141,6 +141,8 @@ static GtkWidget *make_side(StudioWindow *window) {
     gtk_stack_add_titled(stack, GTK_WIDGET(window->graph), "graph", "Graph");
     gtk_stack_add_titled(stack, GTK_WIDGET(window->lsystem), "lsystem", "L-system");
     gtk_stack_add_titled(stack, GTK_WIDGET(window->things), "things", "Contents");
+    window->light = studio_light_mode_new(window);
+    gtk_stack_add_titled(stack, studio_light_mode_panel(window->light), "light", "Light");
     gtk_stack_add_titled(stack, GTK_WIDGET(window->text), "text", "Text");
     gtk_widget_set_vexpand(window->side, TRUE);
     g_signal_connect(window->graph, "selected", G_CALLBACK(on_selected), window);
@@ -238,7 +240,8 @@ static GtkWidget *make_busy(StudioWindow *window) {
     window->busy_bar = gtk_progress_bar_new();
     gtk_widget_set_valign(window->busy_bar, GTK_ALIGN_CENTER);
     gtk_widget_set_size_request(window->busy_bar, 140, -1);
-    gtk_box_append(GTK_BOX(box), gtk_label_new("Building"));
+    window->busy_text = gtk_label_new("Building");
+    gtk_box_append(GTK_BOX(box), window->busy_text);
     gtk_box_append(GTK_BOX(box), window->busy_bar);
     GtkWidget *cancel = gtk_button_new_with_label("Cancel");
     g_signal_connect(cancel, "clicked", G_CALLBACK(on_cancel), window);

@@ -5,6 +5,7 @@
 #include "studio/files.h"
 #include "studio/graph_panel.h"
 #include "studio/inspector.h"
+#include "studio/light_mode.h"
 #include "studio/model/builder.h"
 #include "studio/model/commands.h"
 #include "studio/model/hand.h"
@@ -46,8 +47,9 @@ struct _StudioWindow {
     StudioTextPanel *text, *lsystem;
     StudioInspector *inspector;
     StudioTimeStrip *strip;
+    StudioLightMode *light;
     GtkWidget *picked_bar, *picked_text;
-    GtkWidget *amount, *problem, *problem_text, *busy, *busy_bar, *scale;
+    GtkWidget *amount, *problem, *problem_text, *busy, *busy_text, *busy_bar, *scale;
 };
 
 // window_build.c
@@ -56,6 +58,10 @@ struct _StudioWindow {
 void studio_window_request(StudioWindow *window);
 /// Connects the builder; called once.
 void studio_window_start_builder(StudioWindow *window);
+/// Shows how far the builder is until it is done.
+void studio_window_poll(StudioWindow *window);
+/// A StudioWake, whose user is the window.
+void studio_window_wake(void *user);
 /// Takes what the builder has made.
 void studio_window_collect(StudioWindow *window);
 /// Lets the user pick what stands at a point of the picture.

@@ -45,6 +45,18 @@ endlsystem
 """
 
 
+ROOM = """<frond version="1">
+  <plant id="p"><pgraph><horn id="h" length="0.6" radius="0.03"/></pgraph></plant>
+  <scene sun-strength="0" sky-strength="0">
+    <light by="density" photons="4000" distance="0.2" reference="0.4, 0, 0.5"/>
+    <lamp id="bulb" at="0, 0, 0.9"/>
+    <obstacle at="0, 0, -0.1" size="2, 2, 0.1"/>
+    <place plant="p"/>
+  </scene>
+</frond>
+"""
+
+
 class Run:
     """One studio for all tests, as a person has one."""
 
@@ -224,6 +236,37 @@ def test_lsystem(run):
     studio.wait()
 
 
+def test_light(run):
+    """a lamp is dragged and another hung up, rays, cells and the field are shown, all is undone"""
+    studio = run.studio
+    file = os.path.join(run.home, "room.frond")
+    with open(file, "w", encoding="utf-8") as out:
+        out.write(ROOM)
+    studio.ask(f"open {file}")
+    studio.ask("do side('light')")
+    studio.wait()
+    before = studio.state()["digest"]
+    bulb = studio.middle("at:0,0,0.9")
+    studio.drag(bulb, (bulb[0] + 60, bulb[1] - 20))
+    studio.wait()
+    state = studio.state()
+    assert state["steps"] == 1 and state["selected"].endswith("lamp:bulb"), state
+    studio.ask("do add-lamp::spot")
+    for show in ("show-rays", "show-cells", "show-sun"):
+        studio.ask("do " + show)
+    studio.ask("do light-field::x")
+    run.picture("light")
+    studio.ask("do light-field::points")
+    run.picture("light-points")
+    for show in ("show-rays", "show-cells", "show-sun", "light-field::none"):
+        studio.ask("do " + show)
+    studio.ask("do undo")
+    studio.ask("do undo")
+    studio.wait()
+    state = studio.state()
+    assert state["digest"] == before and state["steps"] == 0, state
+
+
 def test_mistake(run):
     """a mistake is shown at its place and the last good plant stays"""
     studio = run.studio
@@ -303,7 +346,7 @@ def test_killed(run):
     assert run.studio.quit() == 0
 
 
-TESTS = [test_welcome, test_examples, test_lsystem, test_flower, test_link, test_slider, test_curve, test_view, test_hand,
+TESTS = [test_welcome, test_examples, test_lsystem, test_light, test_flower, test_link, test_slider, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
 

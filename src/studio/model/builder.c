@@ -418,6 +418,13 @@ bool studio_builder_is_busy(StudioBuilder *builder, double *fraction, double *se
     return is_busy;
 }
 
+bool studio_builder_is_looking(StudioBuilder *builder) {
+    g_mutex_lock(&builder->lock);
+    bool is_looking = builder->is_looking;
+    g_mutex_unlock(&builder->lock);
+    return is_looking;
+}
+
 const StudioBuilt *studio_builder_collect(StudioBuilder *builder) {
     g_mutex_lock(&builder->lock);
     StudioBuilt *built = builder->is_held ? NULL : builder->built;

@@ -83,6 +83,8 @@ void studio_builder_request(StudioBuilder *builder, FrSource *source, const char
 void studio_builder_cancel(StudioBuilder *builder);
 /// Whether something runs or waits, and how far it is (0 to 1); `seconds` since it began.
 bool studio_builder_is_busy(StudioBuilder *builder, double *fraction, double *seconds);
+/// Whether what runs is a look.
+bool studio_builder_is_looking(StudioBuilder *builder);
 /// The next outcome that is newer than those collected before, or NULL. The builder goes on only
 /// after studio_builder_release().
 const StudioBuilt *studio_builder_collect(StudioBuilder *builder);

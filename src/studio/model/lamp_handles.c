@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double near_enough = 11; // pixels
+static const double near_enough = 11;   // pixels
 static const double along_arrow = 0.25; // an arrow is held from this part of it on
 
 typedef struct Search {
@@ -27,8 +27,7 @@ static void offer(Search *search, const StudioHandle *handle) {
         return;
     }
     double pixels = 0.5 * search->height;
-    double away =
-        hypot((x - search->x) * pixels * search->aspect, (y - search->y) * pixels);
+    double away = hypot((x - search->x) * pixels * search->aspect, (y - search->y) * pixels);
     if (away <= search->best) {
         search->best = away;
         search->found = *handle;
@@ -151,8 +150,7 @@ static bool set_vector(StudioDocument *document, uint32_t element, const char *a
                        const double at[3], double span, const char *step) {
     char *text = studio_vector_text(at, span);
     char *key = g_strdup_printf("%u.%s", element, attribute);
-    FrSplice splice =
-        fr_contents_set(studio_document_contents(document), element, attribute, text);
+    FrSplice splice = fr_contents_set(studio_document_contents(document), element, attribute, text);
     bool is_changed = studio_document_splice_one(document, splice, step, key);
     g_free(key);
     g_free(text);

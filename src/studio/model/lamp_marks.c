@@ -95,8 +95,9 @@ static void add_area(StudioOverlay *overlay, const FrLampParams *params, const f
     double corners[5][3];
     for (int k = 0; k < 5; k++) {
         for (int i = 0; i < 3; i++) {
-            corners[k][i] = (double)(lamp.position.raw[i] + (float)turns[k][0] * lamp.side[0].raw[i] +
-                                     (float)turns[k][1] * lamp.side[1].raw[i]);
+            corners[k][i] =
+                (double)(lamp.position.raw[i] + (float)turns[k][0] * lamp.side[0].raw[i] +
+                         (float)turns[k][1] * lamp.side[1].raw[i]);
         }
     }
     for (int k = 0; k < 4; k++) {
@@ -131,7 +132,8 @@ static void add_lamp(StudioOverlay *overlay, const FrLampParams *lamp, bool is_s
         add_area(overlay, lamp, colour);
     }
     if (lamp->kind != POINT) {
-        studio_overlay_arrow(overlay, at, tip, is_selected ? 2.5 : 1.2, is_selected ? chosen : faint);
+        studio_overlay_arrow(overlay, at, tip, is_selected ? 2.5 : 1.2,
+                             is_selected ? chosen : faint);
     }
     if (is_selected) {
         if (lamp->kind != POINT) {

@@ -47,10 +47,10 @@ typedef enum StudioHandleKind {
 /// What was taken hold of.
 typedef struct StudioHandle {
     StudioHandleKind kind;
-    uint32_t element;       ///< the lamp, or the `<light>` whose reference it is
-    double begin[3];        ///< where it was
-    double grip[3];         ///< where the pointer took it
-    double pivot[3];        ///< of an aim: where the lamp hangs
+    uint32_t element; ///< the lamp, or the `<light>` whose reference it is
+    double begin[3];  ///< where it was
+    double grip[3];   ///< where the pointer took it
+    double pivot[3];  ///< of an aim: where the lamp hangs
 } StudioHandle;
 
 /// The handle at a point of the picture of so many pixels in height; arrows and aims are those of

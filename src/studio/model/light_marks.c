@@ -80,7 +80,7 @@ StudioOverlay *studio_slice_marks(const FrScene *scene, const StudioSlice *slice
             for (int k = 0; k < 6; k++) {
                 uint32_t i = (row + corners[k][1]) * slice->columns + column + corners[k][0];
                 StudioMark mark = mark_of(g_array_index(places, vec3s, i),
-                                          answers[i].intensity / (float)*top, 0.88f, 0);
+                                          answers[i].intensity / (float)*top, 0.8f, 0);
                 g_array_append_val(overlay->triangles, mark);
             }
         }
@@ -94,7 +94,7 @@ StudioOverlay *studio_light_points(const FrScene *scene, const FrLightPlaces *pl
                                    const FrLightAnswer *answers, double *top) {
     StudioOverlay *overlay = studio_overlay_new();
     *top = top_of(scene, answers, places->at->len);
-    overlay->through = 0.0f;
+    overlay->through = 0.3f;
     for (guint i = 0; i < places->at->len; i++) {
         vec3s at = g_array_index(places->at, vec3s, i);
         StudioMark mark = mark_of(at, answers[i].intensity / (float)*top, 1.0f, 7.0f);
