@@ -4,15 +4,22 @@
 
 #include "lsystem/turtle.h"
 
+/// Rows are appended to the plant by so many at once: few enough to be in the nearest cache still
+/// when they are written.
+enum { FR_LBLOCK = 256 };
+
 struct FrLbuilder {
     FrPlant *plant;
     const FrContext *context;
     const FrLview *view;
     FrLdrawn drawn;
     FrStatus status;
-    uint32_t nodes, axes; ///< in use; the plant has some more
+    uint32_t nodes, axes;        ///< in use; the plant has some more
+    uint32_t framed;             ///< nodes whose frames are known
+    float waiting[6][FR_LBLOCK]; ///< heading and left of those behind
     const FrLderivation *derivation;
     uint32_t *components; ///< by the mark of a head: component of the plant, FR_NONE: none so far
+    uint32_t makers;      ///< how many of them
     uint32_t maker;       ///< mark of the module at work
     uint64_t module;      ///< its index in the string
     uint32_t wood, leaf;  ///< materials
@@ -35,12 +42,38 @@ FrPlant *fr_lbuilder_end(FrLbuilder *builder);
 void fr_lbuilder_free(FrLbuilder *builder);
 /// Places something where the turtle is: an organ without a shape, of the symbol's component.
 void fr_lbuilder_site(FrLbuilder *builder, const FrLpose *pose, char symbol, double scale);
-/// Appends an internode; it is where one then stands. Counted apart if it is a segment of F or G.
-void fr_lbuilder_segment(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment);
-/// Appends an internode that is not counted as drawn.
-void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment);
-/// Counts a line from one point to the other as drawn, if it is long enough to be.
-void fr_lbuilder_count(FrLbuilder *builder, const FrLsegment *segment);
+// ---- internodes.c -----------------------------------------------------------------------------
+
+/// The material of a colour in the palette, or `otherwise` where that does not say.
+uint32_t fr_lbuilder_painted(FrLbuilder *builder, int32_t colour, uint32_t otherwise);
+/// The plant's component of what the production of a mark made.
+uint32_t fr_lbuilder_component(FrLbuilder *builder, uint32_t maker);
+/// A frame of the plant from the turtle's axes.
+versors fr_lbuilder_frame(const double heading[3], const double left[3]);
+/// Computes the frames of the nodes that have none yet.
+void fr_lbuilder_settle_frames(FrLbuilder *builder);
+/// Appends an internode of a length that is not 0; it is where one then stands. FR_NONE: failed.
+uint32_t fr_lbuilder_begin(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment,
+                           float width);
+/// Where it ends and how wide it is there.
+static inline void fr_lbuilder_finish(FrLbuilder *builder, uint32_t node, float width,
+                                      const double end[3]) {
+    builder->plant->nodes.radius[node] = width / 2;
+    builder->plant->nodes.position[node] = fr_lturtle_world(end);
+}
+/// Both, unless it has no length.
+void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment,
+                      const float widths[2], const double end[3]);
+/// Counts a line as drawn, unless it is too short for cpfg.
+static inline void fr_lbuilder_count(FrLbuilder *builder, double length, float end_width) {
+    if (length * length > 1e-5 && end_width > 0) {
+        builder->drawn.segments++;
+        builder->drawn.length += length;
+    }
+}
+
+// ---- build.c ----------------------------------------------------------------------------------
+
 /// Counts a point into the bounding box.
 static inline void fr_lbuilder_include(FrLbuilder *builder, const double at[3]) {
     FrLdrawn *drawn = &builder->drawn;
@@ -49,8 +82,6 @@ static inline void fr_lbuilder_include(FrLbuilder *builder, const double at[3]) 
         drawn->max[k] = at[k] > drawn->max[k] ? at[k] : drawn->max[k];
     }
 }
-/// A frame of the plant from the turtle's axes.
-versors fr_lbuilder_frame(const double heading[3], const double left[3]);
 /// The material of the pose's colour; `plain` if that has none of its own.
 uint32_t fr_lbuilder_material(FrLbuilder *builder, const FrLpose *pose, uint32_t plain);
 /// Places an organ of a shape at a point with the turtle's axes.

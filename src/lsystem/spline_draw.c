@@ -195,9 +195,11 @@ static void set_profile(FrLbuilder *builder, uint32_t axis, const FrLcontour *co
     g_free(points);
 }
 
-static void add_node(FrLbuilder *builder, FrLtube *spline, const FrLsegment *segment) {
+static void add_node(FrLbuilder *builder, FrLtube *spline, const FrLsegment *segment,
+                     const FrLpoint *from, const FrLpoint *to) {
     uint32_t axes = builder->axes;
-    fr_lbuilder_node(builder, &spline->stand, segment);
+    fr_lbuilder_node(builder, &spline->stand, segment, (float[2]){from->width, to->width},
+                     to->position);
     if (builder->axes > axes) {
         set_profile(builder, axes, find_contour(builder->view, spline->last.contour));
     }
@@ -206,31 +208,29 @@ static void add_node(FrLbuilder *builder, FrLtube *spline, const FrLsegment *seg
 static void add_strip(FrLturtle *turtle, FrLtube *spline, const FrLpoint *from,
                       const FrLpoint *to) {
     FrLbuilder *builder = turtle->builder;
-    FrLsegment segment = {.start_width = from->width,
-                          .end_width = to->width,
-                          .maker = builder->maker,
-                          .colour = turtle->pose.colour};
     FrLpoint frame = *to;
     for (int k = 0; k < 3; k++) {
-        segment.start[k] = from->position[k];
-        segment.end[k] = to->position[k];
         frame.heading[k] = to->position[k] - from->position[k];
     }
-    if (!(fr_lvector_dot(frame.heading, frame.heading) > 0)) {
+    double square = fr_lvector_dot(frame.heading, frame.heading);
+    if (!(square > 0)) {
         return;
     }
-    segment.length = sqrt(fr_lvector_dot(frame.heading, frame.heading));
     fr_lvector_unit(frame.heading);
     fr_lpoint_untwist(&frame, from, 0);
-    memcpy(segment.heading, frame.heading, sizeof frame.heading);
-    memcpy(segment.left, frame.left, sizeof frame.left);
+    FrLsegment segment = {.start = from->position,
+                          .heading = frame.heading,
+                          .left = frame.left,
+                          .length = sqrt(square),
+                          .maker = builder->maker,
+                          .colour = turtle->pose.colour};
     if (builder->view->style != FR_LSTYLE_CYLINDER) {
         // Lines and flat strips are drawn as segments and end the one that was begun.
         turtle->has_segment = false;
-        fr_lbuilder_count(builder, &segment);
+        fr_lbuilder_count(builder, segment.length, to->width);
         fr_lbuilder_include(builder, to->position);
     }
-    add_node(builder, spline, &segment);
+    add_node(builder, spline, &segment, from, to);
 }
 
 static void draw(FrLturtle *turtle, FrLtube *spline, const Span *span, uint32_t strips) {

@@ -15,13 +15,19 @@ static void set_tropisms(FrLpose *pose, const FrLview *view) {
     }
 }
 
+/// What a symbol does, if it is not one of those that obey_plain() names.
+enum { DEED_NONE = 0, DEED_OTHER = 1 };
+
 /// `$` only ends calls in cpfg.
-static void set_idle(FrLturtle *turtle, const FrLsystem *system) {
+static void set_deeds(FrLturtle *turtle, const FrLsystem *system) {
     bool ends_calls = system->is_paper || system->units->len > 1;
     for (int symbol = 1; symbol < FR_LSYMBOLS; symbol++) {
-        bool is_known = strchr("FfGg+-&^/\\|#![]{}.;,_%~@?", symbol) != NULL;
+        bool is_plain = strchr("FfGg+-&^/\\|#![]", symbol) != NULL;
+        bool is_other = strchr("{}.;,_%~@?", symbol) != NULL || (symbol == '$' && ends_calls);
         bool is_site = turtle->has_sites && strchr(turtle->builder->sites, symbol) != NULL;
-        turtle->is_idle[symbol] = !is_known && !is_site && (symbol != '$' || !ends_calls);
+        turtle->deeds[symbol] = is_other || is_site ? DEED_OTHER
+                                : is_plain          ? (uint8_t)symbol
+                                                    : DEED_NONE;
     }
 }
 
@@ -61,7 +67,7 @@ void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuil
     for (size_t i = 0; i < G_N_ELEMENTS(turtle->turns); i++) {
         turtle->turns[i].cosine = 1;
     }
-    set_idle(turtle, derivation->system);
+    set_deeds(turtle, derivation->system);
 }
 
 void fr_lturtle_clear(FrLturtle *turtle) {
@@ -87,13 +93,29 @@ void fr_lturtle_sine(FrLturtle *turtle, float degrees, double *sine, double *cos
     *cosine = turtle->turns[slot].cosine;
 }
 
-static inline void turn(FrLturtle *turtle, const uint32_t *module, double a[4], double b[4],
-                        int sign) {
+/// Which two axes of a pose a symbol turns, and to which side: read from a table, as a jump for
+/// each symbol would often be foreseen wrongly.
+typedef struct Turn {
+    uint16_t from, to; ///< offsets in the pose
+    double sign;
+} Turn;
+
+#define TURN(from, to, sign)                                                                       \
+    { offsetof(FrLpose, from), offsetof(FrLpose, to), sign }
+
+static const Turn TURNS[FR_LSYMBOLS] = {
+    ['+'] = TURN(heading, left, 1), ['-'] = TURN(heading, left, -1), ['&'] = TURN(heading, up, 1),
+    ['^'] = TURN(heading, up, -1),  ['/'] = TURN(left, up, 1),       ['\\'] = TURN(left, up, -1)};
+
+static inline void turn(FrLturtle *turtle, unsigned symbol, const uint32_t *module) {
     double sine = turtle->sine, cosine = turtle->cosine;
     if (fr_lhead_count(*module) > 0) {
         fr_lturtle_sine(turtle, fr_lword_float(module[1]), &sine, &cosine);
     }
-    fr_lturtle_turn(a, b, sign * sine, cosine);
+    const Turn *turn = &TURNS[symbol];
+    char *pose = (char *)&turtle->pose;
+    fr_lturtle_turn((double *)(void *)(pose + turn->from), (double *)(void *)(pose + turn->to),
+                    turn->sign * sine, cosine);
 }
 
 /// What is drawn next is told to come from this module.
@@ -107,12 +129,48 @@ static inline void note_maker(FrLturtle *turtle, uint32_t head, uint64_t origin)
 // ---- moving -----------------------------------------------------------------------------------
 
 static void close_segment(FrLturtle *turtle) {
-    FrLsegment *segment = &turtle->segment;
+    FrLpose *pose = &turtle->pose;
+    FrLbuilder *builder = turtle->builder;
     turtle->has_segment = false;
-    segment->end_width = turtle->view->tapers ? turtle->pose.width : segment->start_width;
-    memcpy(segment->end, turtle->pose.position, sizeof segment->end);
-    if (turtle->builder != NULL) {
-        fr_lbuilder_segment(turtle->builder, &turtle->pose.stand, segment);
+    if (builder == NULL) {
+        return;
+    }
+    float width = turtle->view->tapers ? pose->width : turtle->start_width;
+    fr_lbuilder_count(builder, turtle->segment.length, width);
+    if (turtle->node != FR_NONE) {
+        fr_lbuilder_finish(builder, turtle->node, width, pose->position);
+    } else {
+        fr_lbuilder_node(builder, &pose->stand, &turtle->segment,
+                         (float[2]){turtle->start_width, width}, pose->position);
+        turtle->status = MAX(turtle->status, builder->status);
+    }
+}
+
+/// Begins a segment at the turtle's place. Its node is written at once, but within a cylinder,
+/// whose own nodes come before it and may end it.
+static inline void begin_segment(FrLturtle *turtle, uint32_t head, uint64_t origin, float length) {
+    FrLpose *pose = &turtle->pose;
+    turtle->has_segment = true;
+    turtle->node = FR_NONE;
+    turtle->start_width = pose->width;
+    turtle->segment = (FrLsegment){.start = pose->position,
+                                   .heading = pose->heading,
+                                   .left = pose->left,
+                                   .length = fabs((double)length),
+                                   .module = origin,
+                                   .maker = fr_lhead_mark(head),
+                                   .colour = pose->colour,
+                                   .is_backward = length < 0};
+    if (pose->spline != 0) {
+        const double **vectors[3] = {&turtle->segment.start, &turtle->segment.heading,
+                                     &turtle->segment.left};
+        for (int k = 0; k < 3; k++) {
+            memcpy(turtle->vectors[k], *vectors[k], sizeof turtle->vectors[k]);
+            *vectors[k] = turtle->vectors[k];
+        }
+    } else if (turtle->builder != NULL && length != 0) {
+        turtle->node =
+            fr_lbuilder_begin(turtle->builder, &pose->stand, &turtle->segment, pose->width);
         turtle->status = MAX(turtle->status, turtle->builder->status);
     }
 }
@@ -164,17 +222,7 @@ static inline void draw(FrLturtle *turtle, const uint32_t *module, char symbol, 
     }
     end_node(turtle);
     float length = length_of(pose, module);
-    FrLsegment *segment = &turtle->segment;
-    memcpy(segment->start, pose->position, sizeof segment->start);
-    memcpy(segment->heading, pose->heading, sizeof segment->heading);
-    memcpy(segment->left, pose->left, sizeof segment->left);
-    segment->start_width = pose->width;
-    segment->module = origin;
-    segment->maker = fr_lhead_mark(*module);
-    segment->colour = pose->colour;
-    segment->is_backward = length < 0;
-    segment->length = fabs((double)length);
-    turtle->has_segment = true;
+    begin_segment(turtle, *module, origin, length);
     advance(turtle, (double)length, symbol == 'F', *module, origin);
     if (turtle->keeps_all) {
         memcpy(pose->last_heading, pose->heading, sizeof pose->last_heading);
@@ -339,38 +387,26 @@ static bool place(FrLturtle *turtle, char symbol, const uint32_t *module, uint64
     return true;
 }
 
-static inline __attribute__((always_inline)) void obey(FrLturtle *turtle, char symbol,
-                                                       const uint32_t *module, uint64_t origin) {
+/// What only moves, turns or branches; false for any other symbol.
+static inline __attribute__((always_inline)) bool
+obey_plain(FrLturtle *turtle, unsigned symbol, const uint32_t *module, uint64_t origin) {
     FrLpose *pose = &turtle->pose;
-    if (turtle->has_sites && place(turtle, symbol, module, origin)) {
-        return;
-    }
     switch (symbol) {
     case 'F':
     case 'G':
-        draw(turtle, module, symbol, origin);
+        draw(turtle, module, (char)symbol, origin);
         break;
     case 'f':
     case 'g':
-        jump(turtle, module, symbol, origin);
+        jump(turtle, module, (char)symbol, origin);
         break;
     case '+':
-        turn(turtle, module, pose->heading, pose->left, 1);
-        break;
     case '-':
-        turn(turtle, module, pose->heading, pose->left, -1);
-        break;
     case '&':
-        turn(turtle, module, pose->heading, pose->up, 1);
-        break;
     case '^':
-        turn(turtle, module, pose->heading, pose->up, -1);
-        break;
     case '/':
-        turn(turtle, module, pose->left, pose->up, 1);
-        break;
     case '\\':
-        turn(turtle, module, pose->left, pose->up, -1);
+        turn(turtle, symbol, module);
         break;
     case '|':
         for (int k = 0; k < 3; k++) {
@@ -389,6 +425,14 @@ static inline __attribute__((always_inline)) void obey(FrLturtle *turtle, char s
         pop(turtle);
         break;
     default:
+        return false;
+    }
+    return true;
+}
+
+static void obey(FrLturtle *turtle, char symbol, const uint32_t *module, uint64_t origin) {
+    bool is_placed = turtle->has_sites && place(turtle, symbol, module, origin);
+    if (!is_placed && !obey_plain(turtle, (unsigned char)symbol, module, origin)) {
         obey_other(turtle, symbol, module, origin);
     }
 }
@@ -422,7 +466,7 @@ static G_GNUC_NO_INLINE void obey_rest(FrLturtle *turtle, char symbol, const uin
     }
 }
 
-static inline void take(FrLturtle *turtle, const uint32_t *module, uint64_t origin) {
+static void take(FrLturtle *turtle, const uint32_t *module, uint64_t origin) {
     char symbol = (char)fr_lhead_symbol(*module);
     if (turtle->skip == 0 && !turtle->is_raw) {
         obey(turtle, symbol, module, origin);
@@ -440,13 +484,15 @@ bool fr_lturtle_take(FrLturtle *turtle, const uint32_t *module, uint64_t origin)
 
 void fr_lturtle_read(FrLturtle *turtle, const FrLstring *string) {
     uint64_t origin = 0;
+    bool is_special = false; // nothing is what it is behind a prefix or a cut
     for (uint64_t at = 0; at < string->count && turtle->status == FR_OK; origin++) {
         const uint32_t *module = string->words + at;
-        bool is_special = turtle->is_raw || turtle->skip > 0;
-        if (is_special || !turtle->is_idle[fr_lhead_symbol(*module)]) {
-            take(turtle, module, origin);
-        }
         at += 1 + fr_lhead_count(*module);
+        unsigned deed = is_special ? DEED_OTHER : turtle->deeds[fr_lhead_symbol(*module)];
+        if (!obey_plain(turtle, deed, module, origin) && deed == DEED_OTHER) {
+            take(turtle, module, origin);
+            is_special = turtle->is_raw || turtle->skip > 0;
+        }
         if ((origin & 0xFFFF) == 0 && fr_progress_is_cancelled(turtle->context->progress)) {
             turtle->status = FR_CANCELLED;
         }

@@ -39,11 +39,10 @@ typedef struct FrLpose {
     uint32_t sides;
 } FrLpose;
 
-/// What a segment is drawn with.
+/// What a segment is drawn with, as it begins. The vectors are borrowed.
 typedef struct FrLsegment {
-    _Alignas(16) double start[4], end[4], heading[4], left[4];
+    const double *start, *heading, *left;
     double length;
-    float start_width, end_width;
     uint64_t module;
     uint32_t maker; ///< mark of its head
     int32_t colour;
@@ -89,22 +88,25 @@ typedef struct FrLturtle {
     FrLpose *stack;
     uint32_t depth, capacity; ///< of the stack
     bool keeps_all;           ///< brackets keep all of a pose
-    FrLsegment segment;       ///< begun, to be drawn when its end width is known
-    bool has_segment;
-    bool is_moved;           ///< its position has not been counted into the bounding box
-    bool is_raw;             ///< the next module belongs to the one before
-    char prefix;             ///< '~', '@' or '?' before, else 0
-    char qualifier;          ///< second letter of @T, @G, @D, @b, @P before, else 0
-    uint32_t skip;           ///< > 0: behind a cut, brackets deep
-    GArray *corners;         ///< double[3]: of the polygons that are open
-    GArray *polygons;        ///< FrLpolygon: open, the innermost last
-    GArray *splines;         ///< FrLtube: open, one a bracket
-    GArray *patches;         ///< FrLpatch
-    GArray *scales;          ///< float: of called L-systems, around and within
-    bool is_dollar_vertical; ///< `$` turns as in The Algorithmic Beauty of Plants
-    bool has_sites;          ///< some symbols place something
+    bool has_segment;         ///< begun; it ends where its end width is known
+    uint32_t node;            ///< that it is, FR_NONE: none, or none yet
+    float start_width;        ///< of the segment
+    FrLsegment segment;       ///< within a cylinder, whose nodes come first
+    double vectors[3][3];     ///< its
+    bool is_moved;            ///< its position has not been counted into the bounding box
+    bool is_raw;              ///< the next module belongs to the one before
+    char prefix;              ///< '~', '@' or '?' before, else 0
+    char qualifier;           ///< second letter of @T, @G, @D, @b, @P before, else 0
+    uint32_t skip;            ///< > 0: behind a cut, brackets deep
+    GArray *corners;          ///< double[3]: of the polygons that are open
+    GArray *polygons;         ///< FrLpolygon: open, the innermost last
+    GArray *splines;          ///< FrLtube: open, one a bracket
+    GArray *patches;          ///< FrLpatch
+    GArray *scales;           ///< float: of called L-systems, around and within
+    bool is_dollar_vertical;  ///< `$` turns as in The Algorithmic Beauty of Plants
+    bool has_sites;           ///< some symbols place something
     uint64_t modules;
-    bool is_idle[FR_LSYMBOLS]; ///< symbols that never do anything
+    uint8_t deeds[FR_LSYMBOLS]; ///< what the symbols do
     FrStatus status;
     double sine, cosine; ///< of the angle increment
     struct {
@@ -141,7 +143,8 @@ static inline double fr_lturtle_value(const uint32_t *module, unsigned k, double
     return k < fr_lhead_count(*module) ? (double)fr_lword_float(module[1 + k]) : otherwise;
 }
 /// Rotation of a pair of the pose's axes as cpfg turns them.
-static inline void fr_lturtle_turn(double a[4], double b[4], double sine, double cosine) {
+static inline void fr_lturtle_turn(double a[restrict 4], double b[restrict 4], double sine,
+                                   double cosine) {
     for (int k = 0; k < 4; k++) {
         double x = a[k], y = b[k];
         a[k] = x * cosine + y * sine;

@@ -110,6 +110,11 @@ void fr_columns_reserve(void *table, const FrColumns *columns, uint32_t capacity
 }
 
 uint32_t fr_columns_append(void *table, const FrColumns *columns, uint32_t count) {
+    return fr_columns_append_but(table, columns, count, 0);
+}
+
+uint32_t fr_columns_append_but(void *table, const FrColumns *columns, uint32_t count,
+                               uint32_t written) {
     FrTableHead *head = head_of(table);
     uint32_t first = head->count;
     FR_ASSERT(count < FR_NONE - first); // FR_NONE stays free to mean "none"
@@ -124,7 +129,10 @@ uint32_t fr_columns_append(void *table, const FrColumns *columns, uint32_t count
         reserve(table, columns, grows ? MAX((uint32_t)doubled, wanted) : MAX(wanted, 16));
     }
     for (size_t c = 0; c < columns->count; c++) {
-        fill_rows(fr_column_data(table, &columns->columns[c]), &columns->columns[c], first, count);
+        if ((written >> c & 1) == 0) {
+            fill_rows(fr_column_data(table, &columns->columns[c]), &columns->columns[c], first,
+                      count);
+        }
     }
     head->count = wanted;
     return first;

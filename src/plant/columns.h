@@ -75,6 +75,12 @@ typedef struct FrColumns {
     X(direction, ZERO, false)                                                                      \
     X(id, ZERO, false)
 
+/// Numbers of columns: FR_NODE_AT_parent and so on.
+#define FR_NODE_NUMBER(field, fill, is_cache) FR_NODE_AT_##field,
+#define FR_AXIS_NUMBER(field, fill, is_cache) FR_AXIS_AT_##field,
+enum { FR_NODE_COLUMNS(FR_NODE_NUMBER) };
+enum { FR_AXIS_COLUMNS(FR_AXIS_NUMBER) };
+
 extern const FrColumns fr_node_columns;
 extern const FrColumns fr_axis_columns;
 extern const FrColumns fr_organ_columns;
@@ -87,6 +93,10 @@ void *fr_column_data(const void *table, const FrColumn *column);
 void fr_columns_reserve(void *table, const FrColumns *columns, uint32_t capacity);
 /// Appends `count` fresh rows to the table that `columns` describe; returns the first.
 uint32_t fr_columns_append(void *table, const FrColumns *columns, uint32_t count);
+/// The same for a caller who will write every row of the columns whose bit is set in `written`,
+/// which hold anything until then.
+uint32_t fr_columns_append_but(void *table, const FrColumns *columns, uint32_t count,
+                               uint32_t written);
 /// Makes `to` (uninitialized) a copy of `from`, without spare capacity.
 void fr_columns_copy(void *to, const void *from, const FrColumns *columns);
 /// Keeps row i where map[i] is not FR_NONE, moving it to map[i] ≤ i; the table then has `count`.

@@ -1,0 +1,217 @@
+// Segments become internodes: a segment where the last one ended continues its axis, also behind
+// branches; behind `[` and behind a jump begins a new one. What the turtle knows is written at
+// once, in the plant's coordinates; frames follow a block at a time, while its rows are still in
+// the nearest cache, eight abreast.
+#include "lsystem/build.h"
+#include "math/lanes.h"
+#include "plant/columns.h"
+
+#include <cglm/struct.h>
+
+#define NODE(field) (1U << FR_NODE_AT_##field)
+#define AXIS(field) (1U << FR_AXIS_AT_##field)
+/// Columns of which every row is written here.
+#define OWN_NODES                                                                                  \
+    (NODE(parent) | NODE(axis) | NODE(rotation) | NODE(length) | NODE(radius) | NODE(position) |   \
+     NODE(frame))
+#define OWN_AXES                                                                                   \
+    (AXIS(first) | AXIS(last) | AXIS(bearer) | AXIS(base_radius) | AXIS(profile) |                 \
+     AXIS(material) | AXIS(component) | AXIS(path))
+
+// ---- frames -----------------------------------------------------------------------------------
+
+static inline FrLanes4 select4(FrLaneMask mask, FrLanes4 yes, FrLanes4 no) {
+    return (FrLanes4){
+        fr_lanes_select(mask, yes.x, no.x), fr_lanes_select(mask, yes.y, no.y),
+        fr_lanes_select(mask, yes.z, no.z), fr_lanes_select(mask, yes.w, no.w)};
+}
+
+// Shepperd's method (1978): the largest component first. z is the heading, x the left.
+static inline FrLanes4 frame_of(FrLanes3 z, FrLanes3 x) {
+    FrLanes3 y = fr_lanes3_cross(z, x);
+    FrLanes trace = x.x + y.y + z.z;
+    FrLanes4 by_w = {y.z - z.y, z.x - x.z, x.y - y.x, trace + 1};
+    FrLanes4 by_x = {1 + x.x - y.y - z.z, y.x + x.y, z.x + x.z, y.z - z.y};
+    FrLanes4 by_y = {y.x + x.y, 1 + y.y - x.x - z.z, z.y + y.z, z.x - x.z};
+    FrLanes4 by_z = {z.x + x.z, z.y + y.z, 1 + z.z - x.x - y.y, x.y - y.x};
+    FrLanes4 q = select4((x.x > y.y) & (x.x > z.z), by_x, select4(y.y > z.z, by_y, by_z));
+    q = select4(trace > 0, by_w, q);
+    FrLanes square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    FrLaneMask is_some = square > 0;
+    FrLanes scale = 1 / fr_lanes_sqrt(square), none = {0};
+    FrLanes4 unit = {q.x * scale, q.y * scale, q.z * scale, q.w * scale};
+    return select4(is_some, unit, (FrLanes4){none, none, none, 1 + none});
+}
+
+/// conj(a)·b
+static inline FrLanes4 between(FrLanes4 a, FrLanes4 b) {
+    return (FrLanes4){a.w * b.x - a.x * b.w - (a.y * b.z - a.z * b.y),
+                      a.w * b.y - a.y * b.w - (a.z * b.x - a.x * b.z),
+                      a.w * b.z - a.z * b.w - (a.x * b.y - a.y * b.x),
+                      a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z};
+}
+
+static inline void write_rows(versors *to, FrLanes4 lanes, uint32_t count) {
+    FrRow rows[FR_LANES];
+    fr_lanes4_rows(lanes, rows);
+    if (count == FR_LANES) {
+        memcpy(to, rows, sizeof rows);
+    } else {
+        memcpy(to, rows, count * sizeof *to);
+    }
+}
+
+FR_LANES_CLONES
+versors fr_lbuilder_frame(const double heading[3], const double left[3]) {
+    vec3s z = fr_lturtle_world(heading), x = fr_lturtle_world(left);
+    FrLanes none = {0};
+    versors frame;
+    write_rows(&frame,
+               frame_of((FrLanes3){z.x + none, z.y + none, z.z + none},
+                        (FrLanes3){x.x + none, x.y + none, x.z + none}),
+               1);
+    return frame;
+}
+
+FR_LANES_CLONES
+void fr_lbuilder_settle_frames(FrLbuilder *builder) {
+    FrNodes *nodes = &builder->plant->nodes;
+    uint32_t first = builder->framed, count = builder->nodes - first;
+    for (uint32_t i = 0; i < count; i += FR_LANES) {
+        FrLanes axes[6];
+        for (int k = 0; k < 6; k++) {
+            memcpy(&axes[k], &builder->waiting[k][i], sizeof axes[k]);
+        }
+        FrLanes4 frames = frame_of((FrLanes3){axes[0], axes[1], axes[2]},
+                                   (FrLanes3){axes[3], axes[4], axes[5]});
+        uint32_t some = MIN(FR_LANES, count - i), bearer[FR_LANES];
+        write_rows(nodes->frame + first + i, frames, some);
+        FrLaneBits parents = {0};
+        memcpy(&parents, nodes->parent + first + i, some * sizeof *bearer);
+        FrLaneMask is_borne = (FrLaneMask)(parents != FR_NONE);
+        parents &= (FrLaneBits)is_borne; // node 0 in place of none
+        memcpy(bearer, &parents, sizeof bearer);
+        FrLanes4 turned = between(fr_lanes4_gather(nodes->frame, bearer), frames);
+        write_rows(nodes->rotation + first + i, select4(is_borne, turned, frames), some);
+    }
+    builder->framed = builder->nodes;
+}
+
+// ---- rows -------------------------------------------------------------------------------------
+
+/// Room for one more node; false after a failure.
+static bool grow_nodes(FrLbuilder *builder, uint32_t maker, uint64_t module) {
+    builder->maker = maker;
+    builder->module = module;
+    fr_lbuilder_settle_frames(builder);
+    uint64_t most = MIN(builder->context->limits.nodes, FR_NONE - UINT64_C(1));
+    FrStatus status = fr_lbuilder_limit(builder, builder->nodes + UINT64_C(1), most, "nodes",
+                                        "the segments of the string");
+    if (status != FR_OK) {
+        builder->status = status;
+        return false;
+    }
+    fr_columns_append_but(&builder->plant->nodes, &fr_node_columns,
+                          (uint32_t)MIN(most - builder->nodes, FR_LBLOCK), OWN_NODES);
+    return true;
+}
+
+uint32_t fr_lbuilder_painted(FrLbuilder *builder, int32_t colour, uint32_t otherwise) {
+    FrMaterial *material = builder->palette == NULL ? NULL : builder->palette[colour & 255];
+    return material == NULL ? otherwise : fr_plant_add_material(builder->plant, material);
+}
+
+/// Tells the plant what made something: the production whose successor its module was in, or the
+/// axiom.
+static uint32_t add_component(FrLbuilder *builder, uint32_t maker) {
+    const FrLproduction *production = fr_lderive_maker(builder->derivation, maker);
+    maker = production == NULL ? 0 : maker;
+    if (builder->components[maker] == FR_NONE) {
+        const FrLunit *unit = g_ptr_array_index(builder->derivation->system->units, 0);
+        builder->components[maker] =
+            fr_plant_add_component(builder->plant, production == NULL ? "axiom" : production->name,
+                                   production == NULL ? unit->axiom_span : production->span);
+    }
+    return builder->components[maker];
+}
+
+uint32_t fr_lbuilder_component(FrLbuilder *builder, uint32_t maker) {
+    bool is_known = maker < builder->makers && builder->components[maker] != FR_NONE;
+    return is_known ? builder->components[maker] : add_component(builder, maker);
+}
+
+/// Begins an axis with the node made last; its offset is in the plant's coordinates until the end.
+static uint32_t begin_axis(FrLbuilder *builder, const FrLsegment *segment, FrLstand stand,
+                           float width) {
+    FrPlant *plant = builder->plant;
+    FrAxes *axes = &plant->axes;
+    if (builder->axes == axes->count) {
+        // There are never more than nodes.
+        fr_columns_append_but(axes, &fr_axis_columns, FR_LBLOCK, OWN_AXES);
+    }
+    uint32_t axis = builder->axes++, node = fr_lstand_node(stand);
+    if (node == FR_NONE) {
+        axes->offset[axis] = fr_lturtle_world(segment->start);
+    } else {
+        uint16_t order = axes->order[plant->nodes.axis[node]];
+        axes->order[axis] = (uint16_t)(order + (order < UINT16_MAX));
+        if ((stand & FR_LSTAND_TIP) == 0) {
+            vec3s start = fr_lturtle_world(segment->start);
+            axes->offset[axis] = glms_vec3_sub(start, plant->nodes.position[node]);
+        }
+    }
+    axes->first[axis] = builder->nodes - 1;
+    axes->bearer[axis] = node;
+    axes->base_radius[axis] = width / 2;
+    axes->component[axis] = fr_lbuilder_component(builder, segment->maker);
+    axes->material[axis] = fr_lbuilder_painted(builder, segment->colour, builder->wood);
+    axes->profile[axis] = builder->section;
+    axes->path[axis] = fr_key_child(fr_key_root(0), segment->module);
+    return axis;
+}
+
+/// Whether an axis has the colour of a segment; another begins another axis.
+static inline bool is_coloured(FrLbuilder *builder, uint32_t axis, int32_t colour) {
+    return builder->palette == NULL ||
+           builder->plant->axes.material[axis] ==
+               fr_lbuilder_painted(builder, colour, builder->wood);
+}
+
+uint32_t fr_lbuilder_begin(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment,
+                           float width) {
+    if (builder->nodes == builder->plant->nodes.count &&
+        !grow_nodes(builder, segment->maker, segment->module)) {
+        return FR_NONE;
+    }
+    FrNodes *nodes = &builder->plant->nodes;
+    uint32_t node = builder->nodes++, parent = fr_lstand_node(*stand), axis;
+    if (parent != FR_NONE && (*stand & ~FR_LSTAND_NODE) == FR_LSTAND_TIP &&
+        nodes->next[parent] == FR_NONE &&
+        is_coloured(builder, nodes->axis[parent], segment->colour)) {
+        axis = nodes->axis[parent];
+        nodes->next[parent] = node;
+    } else {
+        axis = begin_axis(builder, segment, *stand, width);
+    }
+    builder->plant->axes.last[axis] = node;
+    nodes->parent[node] = parent;
+    nodes->axis[node] = axis;
+    nodes->length[node] = (float)segment->length;
+    vec3s heading = fr_lturtle_world(segment->heading), left = fr_lturtle_world(segment->left);
+    float sign = segment->is_backward ? -1 : 1;
+    float axes[6] = {sign * heading.x, sign * heading.y, sign * heading.z, left.x, left.y, left.z};
+    for (int k = 0; k < 6; k++) {
+        builder->waiting[k][node - builder->framed] = axes[k];
+    }
+    *stand = node | FR_LSTAND_TIP;
+    return node;
+}
+
+void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment,
+                      const float widths[2], const double end[3]) {
+    uint32_t node = segment->length > 0 ? fr_lbuilder_begin(builder, stand, segment, widths[0])
+                                        : FR_NONE;
+    if (node != FR_NONE) {
+        fr_lbuilder_finish(builder, node, widths[1], end);
+    }
+}
