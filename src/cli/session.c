@@ -68,11 +68,20 @@ static FrDiags *told_of(const CliSession *session) {
     return told;
 }
 
+/// Whether there is a limit that --limit changes; some that are refused are fixed.
+static bool is_changeable(const char *limit) {
+    FrLimits limits = fr_limits_default();
+    FrDiags *unheard = fr_diags_new();
+    bool is_known = fr_limits_set(&limits, limit, "1", unheard) == FR_OK;
+    fr_diags_free(unheard);
+    return is_known;
+}
+
 /// Says how to have what a limit has refused.
 static void add_hint(const FrDiags *printed, GString *text) {
     for (size_t i = 0; i < fr_diags_count(printed); i++) {
         const char *code = fr_diags_get(printed, i)->code;
-        if (g_str_has_prefix(code, "limit-") && strcmp(code, "limit-value") != 0) {
+        if (g_str_has_prefix(code, "limit-") && is_changeable(code + strlen("limit-"))) {
             char *name = g_strdelimit(g_strdup(code + strlen("limit-")), "_", '-');
             g_string_append_printf(text, "frond: if it is meant, --limit %s=N allows more\n", name);
             g_free(name);

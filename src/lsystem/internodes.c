@@ -21,9 +21,8 @@
 // ---- frames -----------------------------------------------------------------------------------
 
 static inline FrLanes4 select4(FrLaneMask mask, FrLanes4 yes, FrLanes4 no) {
-    return (FrLanes4){
-        fr_lanes_select(mask, yes.x, no.x), fr_lanes_select(mask, yes.y, no.y),
-        fr_lanes_select(mask, yes.z, no.z), fr_lanes_select(mask, yes.w, no.w)};
+    return (FrLanes4){fr_lanes_select(mask, yes.x, no.x), fr_lanes_select(mask, yes.y, no.y),
+                      fr_lanes_select(mask, yes.z, no.z), fr_lanes_select(mask, yes.w, no.w)};
 }
 
 // Shepperd's method (1978): the largest component first. z is the heading, x the left.
@@ -82,8 +81,8 @@ void fr_lbuilder_settle_frames(FrLbuilder *builder) {
         for (int k = 0; k < 6; k++) {
             memcpy(&axes[k], &builder->waiting[k][i], sizeof axes[k]);
         }
-        FrLanes4 frames = frame_of((FrLanes3){axes[0], axes[1], axes[2]},
-                                   (FrLanes3){axes[3], axes[4], axes[5]});
+        FrLanes4 frames =
+            frame_of((FrLanes3){axes[0], axes[1], axes[2]}, (FrLanes3){axes[3], axes[4], axes[5]});
         uint32_t some = MIN(FR_LANES, count - i), bearer[FR_LANES];
         write_rows(nodes->frame + first + i, frames, some);
         FrLaneBits parents = {0};
@@ -172,9 +171,8 @@ static uint32_t begin_axis(FrLbuilder *builder, const FrLsegment *segment, FrLst
 
 /// Whether an axis has the colour of a segment; another begins another axis.
 static inline bool is_coloured(FrLbuilder *builder, uint32_t axis, int32_t colour) {
-    return builder->palette == NULL ||
-           builder->plant->axes.material[axis] ==
-               fr_lbuilder_painted(builder, colour, builder->wood);
+    return builder->palette == NULL || builder->plant->axes.material[axis] ==
+                                           fr_lbuilder_painted(builder, colour, builder->wood);
 }
 
 uint32_t fr_lbuilder_begin(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment,
@@ -209,8 +207,8 @@ uint32_t fr_lbuilder_begin(FrLbuilder *builder, FrLstand *stand, const FrLsegmen
 
 void fr_lbuilder_node(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment,
                       const float widths[2], const double end[3]) {
-    uint32_t node = segment->length > 0 ? fr_lbuilder_begin(builder, stand, segment, widths[0])
-                                        : FR_NONE;
+    uint32_t node =
+        segment->length > 0 ? fr_lbuilder_begin(builder, stand, segment, widths[0]) : FR_NONE;
     if (node != FR_NONE) {
         fr_lbuilder_finish(builder, node, widths[1], end);
     }

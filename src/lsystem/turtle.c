@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-#define MOST_BRACKETS 1000000
+// Of brackets within brackets: 40 MB of poses.
+#define MOST_BRACKETS 100000
 #define LEAST_WIDTH 1e-7F
 #define MOST_LENGTH 1e9F
 
@@ -35,6 +36,7 @@ void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuil
                      const FrContext *context) {
     const FrLview *view = derivation->view;
     *turtle = (FrLturtle){.view = view,
+                          .derivation = derivation,
                           .context = context,
                           .builder = builder,
                           .keeps_all = view->tropisms->len > 0 || derivation->system->has_at,
@@ -268,12 +270,15 @@ static inline void copy_pose(FrLpose *to, const FrLpose *from, bool keeps_all) {
     *(volatile float *)&to->width = from->width;
 }
 
-static void push(FrLturtle *turtle) {
+static void push(FrLturtle *turtle, uint32_t head, uint64_t origin) {
     end_node(turtle);
     if (turtle->depth == turtle->capacity) {
         if (turtle->depth >= MOST_BRACKETS) {
-            turtle->status = fr_limit_check(MOST_BRACKETS + UINT64_C(1), MOST_BRACKETS, "brackets",
-                                            "the string", (FrSpan){0}, turtle->context->diags);
+            const FrLderivation *derivation = turtle->derivation;
+            turtle->status =
+                fr_lderive_limit(derivation, MOST_BRACKETS + UINT64_C(1), MOST_BRACKETS, "brackets",
+                                 fr_lderive_maker(derivation, fr_lhead_mark(head)), "the string",
+                                 origin, turtle->context);
             return;
         }
         turtle->capacity = MIN(MAX(64, 2 * turtle->capacity), MOST_BRACKETS);
@@ -419,7 +424,7 @@ obey_plain(FrLturtle *turtle, unsigned symbol, const uint32_t *module, uint64_t 
         change_width(turtle, module, symbol == '#' ? 1 : -1);
         break;
     case '[':
-        push(turtle);
+        push(turtle, *module, origin);
         break;
     case ']':
         pop(turtle);

@@ -82,6 +82,7 @@ typedef struct FrLbuilder FrLbuilder;
 
 typedef struct FrLturtle {
     const FrLview *view;
+    const FrLderivation *derivation;
     const FrContext *context;
     FrLbuilder *builder; ///< NULL: only moves
     FrLpose pose;

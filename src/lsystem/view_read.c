@@ -372,7 +372,8 @@ FrStatus fr_lview_read(FrSource *source, const char *folder, const FrContext *co
                      .status = status};
     const char *bytes = text->bytes->str;
     for (size_t at = 0; at < text->bytes->len; at++) {
-        size_t end = at + strcspn(bytes + at, "\n");
+        const char *newline = memchr(bytes + at, '\n', text->bytes->len - at);
+        size_t end = newline == NULL ? text->bytes->len : (size_t)(newline - bytes);
         reader.begin = at;
         reader.end = end;
         char *line = g_strndup(bytes + at, end - at);
