@@ -2,9 +2,10 @@
 /// Space in cells that know what stands in them: 4096³ cells of which only the bricks of 8³ that
 /// hold something exist.
 ///
-/// A cell is free, solid (an obstacle), or owned: the number of a branch. Free bits of a brick fill
-/// one cache line, so most questions touch no more. In a round of proposals a cell can also be
-/// *claimed*: the smallest number that asks for it gets it, in whatever order they ask.
+/// A cell is free, solid (an obstacle), or owned: the number of a branch. Bits of a brick of one
+/// kind fill one cache line, so most questions touch no more. In a round of proposals free cells
+/// can also be *asked* for, and those that several ask for *claimed*: the smallest number gets it,
+/// in whatever order they ask.
 #pragma once
 
 #include "frond/context.h"
@@ -21,24 +22,21 @@ enum {
 #define FR_VOXEL_FREE UINT32_MAX
 #define FR_VOXEL_SOLID (UINT32_MAX - 1)
 #define FR_VOXEL_GROUND (UINT32_MAX - 2)
+/// Tells claims, which are below it like the numbers of branches, from these.
+#define FR_VOXEL_CLAIM 0x80000000u
 
 typedef struct FrCell {
     int16_t at[3]; ///< 0 … FR_VOXELS_WIDTH − 1
 } FrCell;
 
-/// What is written of one cell.
-typedef struct FrVoxel {
-    uint32_t owner;
-    uint32_t claim; ///< FR_NONE: unclaimed
-} FrVoxel;
-
 /// 8³ cells. Bit y·8 + x of word z.
 typedef struct FrBrick {
     uint64_t taken[8];  ///< owned or solid
+    uint64_t asked[8];  ///< claimed
     uint64_t solid[8];  ///< an obstacle
     uint64_t ground[8]; ///< … that roots pass
-    uint64_t asked[8];  ///< claimed
-    FrVoxel *voxels;    ///< by fr_voxels_slot(); NULL: no branches in here
+    uint32_t *owners;   ///< by fr_voxels_slot(); where nobody owns a cell, what claims it; NULL: no
+                        ///< branches in here
 } FrBrick;
 
 /// Bricks hang in blocks of 8³, blocks in a table of 64³.
@@ -49,6 +47,7 @@ typedef struct FrVoxels {
     uint64_t bytes;   ///< held
     GPtrArray *slabs; ///< private: memory of bricks and blocks
     size_t slab_used, slab_size;
+    GMutex lock; ///< private: of the slabs
 } FrVoxels;
 
 FR_API FrVoxels *fr_voxels_new(const double origin[3], double cell);
@@ -56,7 +55,8 @@ FR_API void fr_voxels_free(FrVoxels *voxels);
 /// The brick of a cell, made if there is none; NULL where the machine has no memory for it. Not
 /// thread-safe.
 FR_API FrBrick *fr_voxels_make(FrVoxels *voxels, FrCell cell);
-/// The same with room for owners and claims.
+/// The same with room for owners and claims; several threads may ask at once, and look up bricks
+/// meanwhile.
 FR_API FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell);
 /// Cells from the one of `from` to the one of `to`, in order, each beside the one before
 /// (Amanatides and Woo 1987). Returns how many. Both ends must be inside, and the
@@ -87,7 +87,7 @@ FR_API FR_MUST_USE FrStatus fr_voxels_fill(FrVoxels *voxels, const FrVoxelSurfac
                                            const double end[3], const FrContext *context);
 /// Makes all obstacles go, and keeps what is owned.
 FR_API void fr_voxels_clear_solid(FrVoxels *voxels);
-/// Sets the bits of a brick whose voxels have been written.
+/// Sets the bits of a brick whose owners have been written.
 FR_API void fr_voxels_note_owners(FrBrick *brick);
 /// Calls `visit` for every brick that has owners, in order of its place.
 FR_API void fr_voxels_each_owned(const FrVoxels *voxels,
@@ -109,23 +109,35 @@ static inline bool fr_voxels_cell(const FrVoxels *voxels, const double at[3], Fr
 /// The brick of a cell; NULL if there is none.
 static inline FrBrick *fr_voxels_brick(const FrVoxels *voxels, FrCell cell) {
     unsigned x = (unsigned)cell.at[0], y = (unsigned)cell.at[1], z = (unsigned)cell.at[2];
-    FrBrick **block = voxels->top[((z >> 6) * 64 + (y >> 6)) * 64 + (x >> 6)];
-    return block == NULL ? NULL : block[((z >> 3 & 7) * 8 + (y >> 3 & 7)) * 8 + (x >> 3 & 7)];
+    FrBrick **block =
+        __atomic_load_n(&voxels->top[((z >> 6) * 64 + (y >> 6)) * 64 + (x >> 6)], __ATOMIC_ACQUIRE);
+    return block == NULL
+               ? NULL
+               : __atomic_load_n(&block[((z >> 3 & 7) * 8 + (y >> 3 & 7)) * 8 + (x >> 3 & 7)],
+                                 __ATOMIC_ACQUIRE);
+}
+
+/// The brick of cell i of a segment, where `last` is that of the cell before.
+static inline FrBrick *fr_voxels_next_brick(const FrVoxels *voxels, const FrCell *cells, uint32_t i,
+                                            FrBrick *last) {
+    const int16_t *a = cells[i].at, *b = cells[i - 1].at;
+    bool is_same = (((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) & ~(FR_BRICK_WIDTH - 1)) == 0;
+    return is_same && last != NULL ? last : fr_voxels_brick(voxels, cells[i]);
 }
 
 static inline unsigned fr_voxels_bit(FrCell cell) {
     return ((unsigned)cell.at[1] & 7) * 8 + ((unsigned)cell.at[0] & 7);
 }
 
-/// Where a brick keeps the voxel of a bit of a layer: the eight of a cube of 2³ fill a cache line.
+/// Where a brick keeps the owner of a bit of a layer: the eight of a cube of 2³ lie together.
 static inline unsigned fr_voxels_slot(unsigned layer, unsigned bit) {
     unsigned cube = (layer >> 1) * 16 + (bit >> 4) * 4 + (bit >> 1 & 3);
     return cube * 8 + (layer & 1) * 4 + (bit >> 3 & 1) * 2 + (bit & 1);
 }
 
-/// The voxel of a cell of a brick that has voxels.
-static inline FrVoxel *fr_voxels_at(const FrBrick *brick, FrCell cell) {
-    return &brick->voxels[fr_voxels_slot((unsigned)cell.at[2] & 7, fr_voxels_bit(cell))];
+/// Where the owner of a cell is written, in a brick that has owners.
+static inline uint32_t *fr_voxels_at(const FrBrick *brick, FrCell cell) {
+    return &brick->owners[fr_voxels_slot((unsigned)cell.at[2] & 7, fr_voxels_bit(cell))];
 }
 
 /// What stands in a cell.
@@ -138,5 +150,5 @@ static inline uint32_t fr_voxels_owner(const FrVoxels *voxels, FrCell cell) {
     if (brick->solid[layer] >> bit & 1) {
         return brick->ground[layer] >> bit & 1 ? FR_VOXEL_GROUND : FR_VOXEL_SOLID;
     }
-    return fr_voxels_at(brick, cell)->owner;
+    return *fr_voxels_at(brick, cell);
 }

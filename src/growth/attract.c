@@ -13,7 +13,7 @@
 typedef struct Attracting {
     FrGrowth *growth;
     const FrLiveBudAt *buds; ///< growing, gathered
-    uint8_t *sees;           ///< by bud: something that lives is in its reach
+    uint8_t *may_draw;       ///< by bud: some particle knew none nearer when it was asked
     uint64_t *nearest;       ///< by particle: bits of the squared distance, then of the bud's key
 } Attracting;
 
@@ -52,9 +52,9 @@ static void find_nearest(void *data, size_t begin, size_t end, int worker) {
                 if (particles->is_dead[i] || squared > reach * reach) {
                     continue;
                 }
-                attracting->sees[b] = 1;
                 uint64_t mine = code(squared, bud->bud->key);
                 uint64_t old = __atomic_load_n(&attracting->nearest[i], __ATOMIC_RELAXED);
+                attracting->may_draw[b] |= mine <= old;
                 while (mine < old &&
                        !__atomic_compare_exchange_n(&attracting->nearest[i], &old, mine, true,
                                                     __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
@@ -135,7 +135,7 @@ static void sum_up(void *data, size_t begin, size_t end, int worker) {
             continue;
         }
         vec3s far = towards_directions(attracting->growth->particles, bud->world);
-        if (!attracting->sees[b] && glms_vec3_norm2(far) == 0) {
+        if (!attracting->may_draw[b] && glms_vec3_norm2(far) == 0) {
             bud->bud->attraction = far;
             continue;
         }
@@ -186,11 +186,11 @@ void fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count
     }
     Attracting attracting = {.growth = growth, .buds = buds};
     attracting.nearest = g_new(uint64_t, particles->count + 1);
-    attracting.sees = g_new0(uint8_t, count + 1);
+    attracting.may_draw = g_new0(uint8_t, count + 1);
     memset(attracting.nearest, 0xff, particles->count * sizeof(uint64_t));
     meet(growth, buds, count);
     fr_parallel_for(context->pool, count, GRAIN, find_nearest, &attracting, NULL);
     fr_parallel_for(context->pool, count, GRAIN, sum_up, &attracting, NULL);
     g_free(attracting.nearest);
-    g_free(attracting.sees);
+    g_free(attracting.may_draw);
 }

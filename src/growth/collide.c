@@ -1,6 +1,8 @@
 // Collision after Beneš, Andrysco, Šťava 2009, section 3.6: first a box of cells around the new
 // tip, then the cells of the segment (Amanatides, Woo 1987). Bits of whole layers are compared at
 // once; only where one is set is asked whose it is.
+//
+// The same cells are looked at for two questions: what stands there, and whose claim comes first.
 #include "growth/propose.h"
 
 #include <math.h>
@@ -39,39 +41,55 @@ static bool is_related(const FrGrowth *growth, const FrProposal *proposal, uint3
     return of.plant == proposal->plant && of.bearer == proposal->node;
 }
 
-/// True if another bud's claim comes before and is not that of one at the same node.
+typedef enum Question { IS_STANDING, IS_CLAIMED } Question;
+
+/// A proposal and the question that is asked for it.
+typedef struct Asked {
+    const FrGrowth *growth;
+    const FrProposal *proposal;
+    const FrCell *cells; ///< of its segment
+    Question question;
+} Asked;
+
+/// True if a claim is that of another bud, comes before, and is not that of one at the same node.
 static bool comes_before(const FrGrowth *growth, const FrProposal *proposal, uint32_t claim) {
-    if (claim >= proposal->rank) {
+    uint32_t rank = claim & ~FR_VOXEL_CLAIM;
+    if (rank >= proposal->rank) {
         return false;
     }
-    const FrProposal *other = &growth->proposals[growth->by_rank[claim]];
+    const FrProposal *other = &growth->proposals[growth->by_rank[rank]];
     return other->plant != proposal->plant || other->node != proposal->node;
 }
 
+static const uint64_t *bits_of(const FrBrick *brick, Question question) {
+    return question == IS_STANDING ? brick->taken : brick->asked;
+}
+
 /// A cell whose bit is set: true if it is in the bud's way.
-static bool cell_blocks(const FrGrowth *growth, const FrProposal *proposal, const FrBrick *brick,
-                        unsigned layer, unsigned bit, bool by_claims) {
-    unsigned slot = fr_voxels_slot(layer, bit);
-    if (by_claims) {
-        return comes_before(growth, proposal, brick->voxels[slot].claim);
+static inline bool cell_blocks(const Asked *asked, const FrBrick *brick, FrCell cell) {
+    unsigned layer = (unsigned)cell.at[2] & 7, bit = fr_voxels_bit(cell);
+    if (asked->question == IS_CLAIMED) {
+        return comes_before(asked->growth, asked->proposal, *fr_voxels_at(brick, cell));
     }
     uint32_t owner = brick->solid[layer] >> bit & 1
                          ? (brick->ground[layer] >> bit & 1 ? FR_VOXEL_GROUND : FR_VOXEL_SOLID)
-                         : brick->voxels[slot].owner;
-    return !is_related(growth, proposal, owner);
+                         : *fr_voxels_at(brick, cell);
+    return !is_related(asked->growth, asked->proposal, owner);
 }
 
-/// Cells low … high of one brick, numbered within it.
-static bool part_blocks(const FrGrowth *growth, const FrProposal *proposal, const FrBrick *brick,
-                        const unsigned low[3], const unsigned high[3], bool by_claims) {
+/// Cells low … high of the brick that begins at `first`, numbered within it.
+static inline bool part_blocks(const Asked *asked, const FrBrick *brick, FrCell first,
+                               const unsigned low[3], const unsigned high[3]) {
     uint64_t row = (UINT64_C(2) << high[0]) - (UINT64_C(1) << low[0]);
     uint64_t rows = (row * UINT64_C(0x0101010101010101)) >> (8 * (7 - (high[1] - low[1])))
                                                                 << (8 * low[1]);
-    const uint64_t *bits = by_claims ? brick->asked : brick->taken;
+    const uint64_t *bits = bits_of(brick, asked->question);
     for (unsigned layer = low[2]; layer <= high[2]; layer++) {
         for (uint64_t left = bits[layer] & rows; left != 0; left &= left - 1) {
-            unsigned bit = (unsigned)__builtin_ctzll(left);
-            if (cell_blocks(growth, proposal, brick, layer, bit, by_claims)) {
+            int bit = __builtin_ctzll(left);
+            FrCell cell = {{(int16_t)(first.at[0] + (bit & 7)), (int16_t)(first.at[1] + (bit >> 3)),
+                            (int16_t)(first.at[2] + (int)layer)}};
+            if (cell_blocks(asked, brick, cell)) {
                 return true;
             }
         }
@@ -79,10 +97,10 @@ static bool part_blocks(const FrGrowth *growth, const FrProposal *proposal, cons
     return false;
 }
 
-/// The box around the tip: true if something stands in it.
-static bool box_blocks(const FrGrowth *growth, const FrProposal *proposal, FrCell tip,
-                       bool by_claims) {
-    const FrGrownPlant *plant = &growth->plants[proposal->plant];
+/// The box around the tip: true if something is in the way in it.
+static inline bool box_blocks(const Asked *asked, FrCell tip) {
+    const FrGrowth *growth = asked->growth;
+    const FrGrownPlant *plant = &growth->plants[asked->proposal->plant];
     int half = (int)fr_species_of(growth, plant)->params.box / 2;
     int low[3], high[3];
     for (int axis = 0; axis < 3; axis++) {
@@ -93,16 +111,16 @@ static bool box_blocks(const FrGrowth *growth, const FrProposal *proposal, FrCel
     for (brick[2] = low[2] >> 3; brick[2] <= high[2] >> 3; brick[2]++) {
         for (brick[1] = low[1] >> 3; brick[1] <= high[1] >> 3; brick[1]++) {
             for (brick[0] = low[0] >> 3; brick[0] <= high[0] >> 3; brick[0]++) {
-                FrCell cell;
+                FrCell first;
                 unsigned from[3], to[3];
                 for (int axis = 0; axis < 3; axis++) {
                     int begin = brick[axis] * FR_BRICK_WIDTH;
-                    cell.at[axis] = (int16_t)begin;
+                    first.at[axis] = (int16_t)begin;
                     from[axis] = (unsigned)(MAX(low[axis], begin) - begin);
                     to[axis] = (unsigned)(MIN(high[axis], begin + FR_BRICK_WIDTH - 1) - begin);
                 }
-                const FrBrick *at = fr_voxels_brick(growth->voxels, cell);
-                if (at != NULL && part_blocks(growth, proposal, at, from, to, by_claims)) {
+                const FrBrick *at = fr_voxels_brick(growth->voxels, first);
+                if (at != NULL && part_blocks(asked, at, first, from, to)) {
                     return true;
                 }
             }
@@ -112,13 +130,14 @@ static bool box_blocks(const FrGrowth *growth, const FrProposal *proposal, FrCel
 }
 
 /// The cells of the segment, without the first, in which its bearer stands.
-static bool segment_blocks(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells,
-                           bool by_claims) {
-    for (uint32_t i = 1; i < proposal->cell_count; i++) {
-        const FrBrick *brick = fr_voxels_brick(growth->voxels, cells[i]);
-        unsigned layer = (unsigned)cells[i].at[2] & 7, bit = fr_voxels_bit(cells[i]);
-        if (brick != NULL && ((by_claims ? brick->asked : brick->taken)[layer] >> bit & 1) != 0 &&
-            cell_blocks(growth, proposal, brick, layer, bit, by_claims)) {
+static inline bool segment_blocks(const Asked *asked) {
+    FrBrick *brick = NULL;
+    for (uint32_t i = 1; i < asked->proposal->cell_count; i++) {
+        FrCell cell = asked->cells[i];
+        brick = fr_voxels_next_brick(asked->growth->voxels, asked->cells, i, brick);
+        if (brick != NULL &&
+            (bits_of(brick, asked->question)[cell.at[2] & 7] >> fr_voxels_bit(cell) & 1) != 0 &&
+            cell_blocks(asked, brick, cell)) {
             return true;
         }
     }
@@ -127,18 +146,19 @@ static bool segment_blocks(const FrGrowth *growth, const FrProposal *proposal, c
 
 bool fr_growth_is_free(const FrGrowth *growth, FrProposal *proposal, FrCell *cells) {
     const FrGrownPlant *plant = &growth->plants[proposal->plant];
+    const Asked asked = {growth, proposal, cells, IS_STANDING};
     double end[3];
     FrCell tip;
     world_of(plant, proposal->at, end);
-    if (!fr_voxels_cell(growth->voxels, end, &tip) || box_blocks(growth, proposal, tip, false)) {
+    if (!fr_voxels_cell(growth->voxels, end, &tip) || box_blocks(&asked, tip)) {
         return false;
     }
     proposal->cell_count =
         fr_growth_walk(growth, plant, plant->buds[proposal->bud].node, proposal->at, cells);
-    return proposal->cell_count > 0 && !segment_blocks(growth, proposal, cells, false);
+    return proposal->cell_count > 0 && !segment_blocks(&asked);
 }
 
 bool fr_growth_is_first(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
-    return !box_blocks(growth, proposal, cells[proposal->cell_count - 1], true) &&
-           !segment_blocks(growth, proposal, cells, true);
+    const Asked asked = {growth, proposal, cells, IS_CLAIMED};
+    return !box_blocks(&asked, cells[proposal->cell_count - 1]) && !segment_blocks(&asked);
 }

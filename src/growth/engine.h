@@ -88,7 +88,10 @@ typedef struct FrGrownPlant {
     bool is_left_out;                           ///< its seed has no place to stand
     uint8_t is_dead;                            ///< has starved
     uint16_t starving;                          ///< steps in a row
+    uint32_t live_count, growing_count;         ///< gathered buds
+    uint32_t first_growing, first_asleep;       ///< of them, among those of all plants
     uint32_t first_proposal, proposal_count;    ///< in this round
+    uint32_t first_owner, owner_count;          ///< new ones of this round
     uint32_t born, shed, collisions, contested; ///< in this step
 } FrGrownPlant;
 
@@ -198,6 +201,13 @@ static inline const FrOrderParams *fr_order_of(const FrReadySpecies *species, ui
 bool fr_bytes_take(FrBytesReader *reader, void *into, size_t size);
 /// False also if the number is above `limit`.
 bool fr_bytes_take_count(FrBytesReader *reader, uint64_t limit, uint64_t *count);
+
+// ---- gather.c ---------------------------------------------------------------------------------
+/// Gathers all live buds in growth->live, the growing ones first. Returns how many grow.
+uint32_t fr_growth_gather_live(FrGrowth *growth, uint32_t *count, const FrContext *context);
+/// Gathers a proposal for every shoot that has this internode still to make, plant by plant.
+/// Returns how many.
+uint32_t fr_growth_gather_proposals(FrGrowth *growth, uint32_t internode, const FrContext *context);
 
 // ---- scatter.c, attract.c -----------------------------------------------------------------------
 void fr_growth_save_particles(const FrGrowth *growth, GByteArray *out);

@@ -62,121 +62,84 @@ typedef struct Round {
     FrGrowth *growth;
     uint32_t *open; ///< proposals still to be settled
     bool is_again;
-    bool is_alone; ///< one thread
 } Round;
 
+// ---- claiming ---------------------------------------------------------------------------------
+
+/// Notes the smallest rank in every cell that nobody owns yet; what is a relative's stays so.
+static void claim(FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
+    for (uint32_t k = 1; k < proposal->cell_count; k++) {
+        FrBrick *brick = fr_voxels_reserve(growth->voxels, cells[k]);
+        unsigned layer = (unsigned)cells[k].at[2] & 7;
+        uint64_t bit = UINT64_C(1) << fr_voxels_bit(cells[k]);
+        uint32_t *owner = fr_voxels_at(brick, cells[k]);
+        uint32_t mine = proposal->rank | FR_VOXEL_CLAIM;
+        uint32_t old = __atomic_load_n(owner, __ATOMIC_RELAXED);
+        if (old < FR_VOXEL_CLAIM) {
+            continue;
+        }
+        while (mine < old && !__atomic_compare_exchange_n(owner, &old, mine, true, __ATOMIC_RELAXED,
+                                                          __ATOMIC_RELAXED)) {
+        }
+        if ((__atomic_load_n(&brick->asked[layer], __ATOMIC_RELAXED) & bit) == 0) {
+            __atomic_fetch_or(&brick->asked[layer], bit, __ATOMIC_RELAXED);
+        }
+    }
+}
+
+/// Ways are looked for among what is owned, which claims leave as it is.
 static void propose_range(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Round *round = data;
     for (size_t i = begin; i < end; i++) {
+        FrProposal *proposal = &round->growth->proposals[round->open[i]];
         propose(round->growth, round->open[i], round->is_again);
+        if (proposal->state == FR_PROPOSAL_ASKS) {
+            claim(round->growth, proposal, cells_of(round->growth, round->open[i]));
+        }
     }
 }
 
-// ---- claiming ---------------------------------------------------------------------------------
-
-/// One thread alone needs no locked access, which costs as much as all the rest of a claim.
-static void claim_alone(FrBrick *brick, FrCell cell, uint32_t rank) {
-    FrVoxel *voxel = fr_voxels_at(brick, cell);
-    voxel->claim = MIN(voxel->claim, rank);
-    brick->asked[cell.at[2] & 7] |= UINT64_C(1) << fr_voxels_bit(cell);
-}
-
-static void claim_cell(FrBrick *brick, FrCell cell, uint32_t rank) {
-    uint32_t *claim = &fr_voxels_at(brick, cell)->claim;
-    uint32_t old = __atomic_load_n(claim, __ATOMIC_RELAXED);
-    while (rank < old && !__atomic_compare_exchange_n(claim, &old, rank, true, __ATOMIC_RELAXED,
-                                                      __ATOMIC_RELAXED)) {
-    }
-    __atomic_fetch_or(&brick->asked[cell.at[2] & 7], UINT64_C(1) << fr_voxels_bit(cell),
-                      __ATOMIC_RELAXED);
-}
-
-static void claim_range(void *data, size_t begin, size_t end, int worker) {
+static void decide_range(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Round *round = data;
     const FrGrowth *growth = round->growth;
     for (size_t i = begin; i < end; i++) {
-        const FrProposal *proposal = &growth->proposals[round->open[i]];
-        if (proposal->state != FR_PROPOSAL_ASKS) {
-            continue;
+        FrProposal *proposal = &growth->proposals[round->open[i]];
+        if (proposal->state == FR_PROPOSAL_ASKS) {
+            bool is_first = fr_growth_is_first(growth, proposal, cells_of(growth, round->open[i]));
+            proposal->next = is_first ? FR_PROPOSAL_WON : FR_PROPOSAL_LOST;
         }
-        const FrCell *cells = cells_of(growth, round->open[i]);
-        for (uint32_t k = 1; k < proposal->cell_count; k++) {
-            FrBrick *brick = fr_voxels_brick(growth->voxels, cells[k]);
-            if (round->is_alone) {
-                claim_alone(brick, cells[k], proposal->rank);
-            } else {
-                claim_cell(brick, cells[k], proposal->rank);
+    }
+}
+
+/// A winner moves into the cells that it has claimed first; a loser leaves them as they were.
+static void settle(FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
+    FrBrick *brick = NULL;
+    for (uint32_t k = 1; k < proposal->cell_count; k++) {
+        brick = fr_voxels_next_brick(growth->voxels, cells, k, brick);
+        unsigned layer = (unsigned)cells[k].at[2] & 7;
+        uint32_t *owner = fr_voxels_at(brick, cells[k]);
+        if (__atomic_load_n(owner, __ATOMIC_RELAXED) == (proposal->rank | FR_VOXEL_CLAIM)) {
+            bool has_won = proposal->next == FR_PROPOSAL_WON;
+            __atomic_store_n(owner, has_won ? proposal->own : FR_VOXEL_FREE, __ATOMIC_RELAXED);
+            if (has_won) {
+                __atomic_fetch_or(&brick->taken[layer], UINT64_C(1) << fr_voxels_bit(cells[k]),
+                                  __ATOMIC_RELAXED);
             }
         }
+        __atomic_store_n(&brick->asked[layer], 0, __ATOMIC_RELAXED);
     }
 }
 
-/// A winner moves into the cells that it has claimed first. Near a fork a cell may be a relative's
-/// already; then it stays so.
-static void occupy(FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
-    const FrGrownPlant *plant = &growth->plants[proposal->plant];
-    uint32_t owner = plant->axes[plant->buds[proposal->bud].axis].owner;
-    for (uint32_t k = 1; k < proposal->cell_count; k++) {
-        FrBrick *brick = fr_voxels_brick(growth->voxels, cells[k]);
-        FrVoxel *voxel = fr_voxels_at(brick, cells[k]);
-        if (voxel->claim == proposal->rank && voxel->owner == FR_VOXEL_FREE) {
-            voxel->owner = owner;
-            __atomic_fetch_or(&brick->taken[cells[k].at[2] & 7],
-                              UINT64_C(1) << fr_voxels_bit(cells[k]), __ATOMIC_RELAXED);
-        }
-    }
-}
-
-/// Claims alone decide; owners are only written, so winners can move in at once.
-static void decide_range(void *data, size_t begin, size_t end, int worker) {
+static void settle_range(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Round *round = data;
-    FrGrowth *growth = round->growth;
     for (size_t i = begin; i < end; i++) {
-        FrProposal *proposal = &growth->proposals[round->open[i]];
-        if (proposal->state != FR_PROPOSAL_ASKS) {
-            continue;
-        }
-        const FrCell *cells = cells_of(growth, round->open[i]);
-        bool has_won = fr_growth_is_first(growth, proposal, cells);
-        proposal->next = has_won ? FR_PROPOSAL_WON : FR_PROPOSAL_LOST;
-        if (has_won) {
-            occupy(growth, proposal, cells);
-        }
-    }
-}
-
-static void unclaim_range(void *data, size_t begin, size_t end, int worker) {
-    (void)worker;
-    const Round *round = data;
-    FrGrowth *growth = round->growth;
-    for (size_t i = begin; i < end; i++) {
-        FrProposal *proposal = &growth->proposals[round->open[i]];
-        if (proposal->state != FR_PROPOSAL_ASKS) {
-            continue;
-        }
-        const FrCell *cells = cells_of(growth, round->open[i]);
-        for (uint32_t k = 1; k < proposal->cell_count; k++) {
-            FrBrick *brick = fr_voxels_brick(growth->voxels, cells[k]);
-            __atomic_store_n(&fr_voxels_at(brick, cells[k])->claim, FR_NONE, __ATOMIC_RELAXED);
-            __atomic_store_n(&brick->asked[cells[k].at[2] & 7], 0, __ATOMIC_RELAXED);
-        }
-        proposal->state = proposal->next;
-    }
-}
-
-/// Makes the bricks that will be claimed: the one thing that cannot be done at the same time.
-static void reserve(FrGrowth *growth, const uint32_t *open, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++) {
-        const FrProposal *proposal = &growth->proposals[open[i]];
-        if (proposal->state != FR_PROPOSAL_ASKS) {
-            continue;
-        }
-        const FrCell *cells = cells_of(growth, open[i]);
-        for (uint32_t k = 1; k < proposal->cell_count; k++) {
-            fr_voxels_reserve(growth->voxels, cells[k]);
+        FrProposal *proposal = &round->growth->proposals[round->open[i]];
+        if (proposal->state == FR_PROPOSAL_ASKS) {
+            settle(round->growth, proposal, cells_of(round->growth, round->open[i]));
+            proposal->state = proposal->next;
         }
     }
 }
@@ -184,15 +147,10 @@ static void reserve(FrGrowth *growth, const uint32_t *open, uint32_t count) {
 void fr_growth_settle(FrGrowth *growth, uint32_t *open, uint32_t count, const FrContext *context) {
     enum { GRAIN = 256, AGAIN = 3 };
     for (int attempt = 0; attempt <= AGAIN && count > 0; attempt++) {
-        Round round = {.growth = growth,
-                       .open = open,
-                       .is_again = attempt > 0,
-                       .is_alone = fr_pool_threads(context->pool) == 1};
+        Round round = {.growth = growth, .open = open, .is_again = attempt > 0};
         fr_parallel_for(context->pool, count, GRAIN, propose_range, &round, NULL);
-        reserve(growth, open, count);
-        fr_parallel_for(context->pool, count, GRAIN, claim_range, &round, NULL);
         fr_parallel_for(context->pool, count, GRAIN, decide_range, &round, NULL);
-        fr_parallel_for(context->pool, count, GRAIN, unclaim_range, &round, NULL);
+        fr_parallel_for(context->pool, count, GRAIN, settle_range, &round, NULL);
         uint32_t left = 0;
         for (uint32_t i = 0; i < count; i++) {
             if (growth->proposals[open[i]].state == FR_PROPOSAL_LOST) {

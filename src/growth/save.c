@@ -47,7 +47,7 @@ static void put_brick(void *data, FrCell first, FrBrick *brick) {
     GByteArray *out = data;
     uint32_t count = 0;
     for (uint32_t i = 0; i < FR_BRICK_CELLS; i++) {
-        count += brick->voxels[i].owner != FR_VOXEL_FREE;
+        count += brick->owners[i] != FR_VOXEL_FREE;
     }
     if (count == 0) {
         return;
@@ -55,9 +55,9 @@ static void put_brick(void *data, FrCell first, FrBrick *brick) {
     put(out, &first, sizeof first);
     put(out, &(uint16_t){(uint16_t)count}, sizeof(uint16_t));
     for (uint32_t i = 0; i < FR_BRICK_CELLS; i++) {
-        if (brick->voxels[i].owner != FR_VOXEL_FREE) {
+        if (brick->owners[i] != FR_VOXEL_FREE) {
             put(out, &(uint16_t){(uint16_t)i}, sizeof(uint16_t));
-            put(out, &brick->voxels[i].owner, sizeof(uint32_t));
+            put(out, &brick->owners[i], sizeof(uint32_t));
         }
     }
 }
@@ -252,7 +252,7 @@ static bool take_cells(FrBytesReader *reader, FrGrowth *growth) {
                 growth->owners[owner].plant == FR_NONE) {
                 return false;
             }
-            brick->voxels[index].owner = owner;
+            brick->owners[index] = owner;
         }
         fr_voxels_note_owners(brick);
     }
@@ -264,7 +264,7 @@ static bool take_growth(FrBytesReader *reader, FrGrowth *growth, const FrLimits 
     uint64_t owners, plants;
     if (!fr_bytes_take(reader, magic, 8) || memcmp(magic, MAGIC, 8) != 0 ||
         !fr_bytes_take_count(reader, UINT32_MAX, &growth->step) ||
-        !fr_bytes_take_count(reader, FR_VOXEL_GROUND - 1, &owners) || owners > reader->left ||
+        !fr_bytes_take_count(reader, INT32_MAX, &owners) || owners > reader->left ||
         !fr_bytes_take_count(reader, limits->plants, &plants)) {
         return false;
     }

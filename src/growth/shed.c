@@ -80,9 +80,8 @@ static void free_cells(const FrGrowth *growth, const FrGrownPlant *plant,
         uint32_t count = fr_growth_walk(growth, plant, nodes->parent[i], nodes->at[i], cells);
         for (uint32_t k = 0; k < count; k++) {
             FrBrick *brick = fr_voxels_brick(growth->voxels, cells[k]);
-            if (brick != NULL && brick->voxels != NULL &&
-                fr_voxels_at(brick, cells[k])->owner == owner) {
-                fr_voxels_at(brick, cells[k])->owner = FR_VOXEL_FREE;
+            if (brick != NULL && brick->owners != NULL && *fr_voxels_at(brick, cells[k]) == owner) {
+                *fr_voxels_at(brick, cells[k]) = FR_VOXEL_FREE;
                 unsigned layer = (unsigned)cells[k].at[2] & 7;
                 uint64_t bit = UINT64_C(1) << fr_voxels_bit(cells[k]);
                 if ((brick->solid[layer] & bit) == 0) {

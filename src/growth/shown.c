@@ -86,10 +86,10 @@ static void add_cube(Cubes *cubes, FrCell at, uint32_t plant) {
 
 static uint32_t plant_in(const FrGrowth *growth, const FrBrick *brick, FrCell cell) {
     unsigned bit = fr_voxels_bit(cell), layer = (unsigned)cell.at[2] & 7;
-    if ((brick->solid[layer] >> bit & 1) != 0 || brick->voxels == NULL) {
+    if ((brick->solid[layer] >> bit & 1) != 0 || brick->owners == NULL) {
         return FR_NONE;
     }
-    return growth->owners[fr_voxels_at(brick, cell)->owner].plant;
+    return growth->owners[*fr_voxels_at(brick, cell)].plant;
 }
 
 static void add_brick(void *user, const FrBrick *brick, FrCell first) {

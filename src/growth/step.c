@@ -3,73 +3,6 @@
 // section 3.2, with its random order of buds replaced by claims that know no order).
 #include "growth/propose.h"
 
-#include <math.h>
-
-static void note_owner(FrGrowth *growth, uint32_t plant, uint32_t axis) {
-    FrGrownAxis *of = &growth->plants[plant].axes[axis];
-    if (of->owner != FR_NONE) {
-        return;
-    }
-    fr_growth_reserve_owners(growth, growth->owner_count + 1);
-    of->owner = growth->owner_count;
-    growth->owners[growth->owner_count++] = (FrOwner){plant, axis, of->bearer};
-}
-
-static void room_for_proposals(FrGrowth *growth, uint32_t count) {
-    if (count > growth->proposal_capacity) {
-        growth->proposal_capacity = count + count / 2;
-        growth->proposals = g_renew(FrProposal, growth->proposals, growth->proposal_capacity);
-        growth->by_rank = g_renew(uint32_t, growth->by_rank, growth->proposal_capacity);
-        growth->other_rank = g_renew(uint32_t, growth->other_rank, growth->proposal_capacity);
-        growth->open = g_renew(uint32_t, growth->open, growth->proposal_capacity);
-        growth->sort_keys = g_renew(uint64_t, growth->sort_keys, growth->proposal_capacity);
-        growth->cells =
-            g_renew(FrCell, growth->cells, (size_t)growth->proposal_capacity * growth->cell_stride);
-    }
-}
-
-static FrProposal proposal_of(const FrGrownPlant *plant, uint32_t index, uint32_t b) {
-    const FrLiveBud *bud = &plant->buds[b];
-    const FrGrownAxis *axis = &plant->axes[bud->axis];
-    bool is_first = axis->internodes == 0 && bud->node != FR_NONE;
-    return (FrProposal){.plant = index,
-                        .bud = b,
-                        .node = bud->node,
-                        .own = axis->owner,
-                        .branched_off =
-                            is_first ? plant->axes[plant->nodes.axis[bud->node]].owner : FR_NONE};
-}
-
-/// Gathers a proposal for every shoot that has this internode still to make.
-static uint32_t gather(FrGrowth *growth, uint32_t internode) {
-    uint32_t count = 0;
-    for (uint32_t p = 0; p < growth->plant_count; p++) {
-        const FrGrownPlant *plant = &growth->plants[p];
-        for (uint32_t b = 0; b < plant->bud_count; b++) {
-            count += plant->buds[b].state == FR_LIVE_GROWING && plant->buds[b].shoot > internode;
-        }
-    }
-    room_for_proposals(growth, count);
-    count = 0;
-    for (uint32_t p = 0; p < growth->plant_count; p++) {
-        FrGrownPlant *plant = &growth->plants[p];
-        plant->first_proposal = count;
-        for (uint32_t b = 0; b < plant->bud_count; b++) {
-            const FrLiveBud *bud = &plant->buds[b];
-            if (bud->state == FR_LIVE_GROWING && bud->shoot > internode) {
-                growth->sort_keys[count] = fr_random_bits(bud->key, FR_CHANCE_CLAIM,
-                                                          (uint32_t)growth->step * 64u + internode);
-                growth->open[count] = count;
-                note_owner(growth, p, bud->axis);
-                growth->proposals[count] = proposal_of(plant, p, b);
-                count++;
-            }
-        }
-        plant->proposal_count = count - plant->first_proposal;
-    }
-    return count;
-}
-
 /// What has been settled becomes wood.
 static void commit(FrGrowth *growth, const FrProposal *proposal) {
     FrGrownPlant *plant = &growth->plants[proposal->plant];
@@ -157,36 +90,9 @@ static void room_for_workers(FrGrowth *growth, const FrContext *context) {
     }
 }
 
-/// Gathers all live buds, the growing ones first. Returns how many grow.
-static uint32_t gather_live(FrGrowth *growth, uint32_t *count) {
-    *count = 0;
-    for (uint32_t p = 0; p < growth->plant_count; p++) {
-        *count += growth->plants[p].bud_count;
-    }
-    if (*count > growth->live_capacity) {
-        growth->live_capacity = *count + *count / 2;
-        growth->live = g_renew(FrLiveBudAt, growth->live, growth->live_capacity);
-    }
-    uint32_t growing = 0, asleep = *count;
-    for (uint32_t p = 0; p < growth->plant_count; p++) {
-        FrGrownPlant *plant = &growth->plants[p];
-        const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
-        for (uint32_t b = 0; b < plant->bud_count; b++) {
-            FrLiveBud *bud = &plant->buds[b];
-            uint32_t slot = bud->state == FR_LIVE_GROWING ? growing++ : --asleep;
-            growth->live[slot] = (FrLiveBudAt){.bud = bud,
-                                               .params = params,
-                                               .world = fr_bud_world(plant, bud),
-                                               .influence = (float)params->influence,
-                                               .own_shade = sqrtf((float)params->foliage)};
-        }
-    }
-    return growing;
-}
-
 static FrStatus sense(FrGrowth *growth, const FrContext *context) {
     fr_growth_colonize(growth, context);
-    uint32_t count, growing = gather_live(growth, &count);
+    uint32_t count, growing = fr_growth_gather_live(growth, &count, context);
     gint64 begin = g_get_monotonic_time();
     FrStatus status = fr_growth_light(growth, growth->live, count, context);
     growth->light_seconds = (double)(g_get_monotonic_time() - begin) * 1e-6;
@@ -197,7 +103,7 @@ static FrStatus sense(FrGrowth *growth, const FrContext *context) {
 
 static void make_shoots(FrGrowth *growth, const FrContext *context) {
     for (uint32_t internode = 0;; internode++) {
-        uint32_t count = gather(growth, internode);
+        uint32_t count = fr_growth_gather_proposals(growth, internode, context);
         if (count == 0) {
             return;
         }

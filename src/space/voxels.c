@@ -53,12 +53,14 @@ FrVoxels *fr_voxels_new(const double origin[3], double cell) {
     voxels->top = g_new0(FrBrick **, TOP);
     voxels->bytes = TOP * sizeof(FrBrick **);
     voxels->slabs = g_ptr_array_new_with_free_func(free_slab);
+    g_mutex_init(&voxels->lock);
     return voxels;
 }
 
 void fr_voxels_free(FrVoxels *voxels) {
     if (voxels != NULL) {
         g_ptr_array_free(voxels->slabs, TRUE);
+        g_mutex_clear(&voxels->lock);
         g_free(voxels->top);
         g_free(voxels);
     }
@@ -75,31 +77,37 @@ FrStatus fr_voxels_check(const FrVoxels *voxels, uint64_t more, FrSpan span,
 
 FrBrick *fr_voxels_make(FrVoxels *voxels, FrCell cell) {
     unsigned x = (unsigned)cell.at[0], y = (unsigned)cell.at[1], z = (unsigned)cell.at[2];
-    FrBrick ***block = &voxels->top[((z >> 6) * 64 + (y >> 6)) * 64 + (x >> 6)];
-    if (*block == NULL) {
-        *block = take(voxels, BLOCK * sizeof(FrBrick *));
+    FrBrick ***top = &voxels->top[((z >> 6) * 64 + (y >> 6)) * 64 + (x >> 6)];
+    FrBrick **block = *top;
+    if (block == NULL) {
+        block = take(voxels, BLOCK * sizeof(FrBrick *));
+        if (block == NULL) {
+            return NULL;
+        }
+        __atomic_store_n(top, block, __ATOMIC_RELEASE);
     }
-    if (*block == NULL) {
-        return NULL;
+    FrBrick **place = &block[((z >> 3 & 7) * 8 + (y >> 3 & 7)) * 8 + (x >> 3 & 7)];
+    if (*place == NULL) {
+        __atomic_store_n(place, take(voxels, sizeof(FrBrick)), __ATOMIC_RELEASE);
     }
-    FrBrick **brick = &(*block)[((z >> 3 & 7) * 8 + (y >> 3 & 7)) * 8 + (x >> 3 & 7)];
-    if (*brick == NULL) {
-        *brick = take(voxels, sizeof(FrBrick));
-    }
-    return *brick;
+    return *place;
 }
 
 FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell) {
     FrBrick *brick = fr_voxels_brick(voxels, cell);
-    if (brick == NULL) {
-        brick = fr_voxels_make(voxels, cell);
+    if (brick != NULL && __atomic_load_n(&brick->owners, __ATOMIC_ACQUIRE) != NULL) {
+        return brick;
     }
+    g_mutex_lock(&voxels->lock);
+    brick = fr_voxels_make(voxels, cell);
     FR_ASSERT(brick != NULL);
-    if (brick->voxels == NULL) {
-        brick->voxels = take(voxels, FR_BRICK_CELLS * sizeof(FrVoxel));
-        FR_ASSERT(brick->voxels != NULL);
-        memset(brick->voxels, 0xff, FR_BRICK_CELLS * sizeof(FrVoxel));
+    if (brick->owners == NULL) {
+        uint32_t *owners = take(voxels, FR_BRICK_CELLS * sizeof(uint32_t));
+        FR_ASSERT(owners != NULL);
+        memset(owners, 0xff, FR_BRICK_CELLS * sizeof(uint32_t));
+        __atomic_store_n(&brick->owners, owners, __ATOMIC_RELEASE);
     }
+    g_mutex_unlock(&voxels->lock);
     return brick;
 }
 
@@ -137,7 +145,7 @@ void fr_voxels_each_owned(const FrVoxels *voxels,
     for (int top = 0; top < TOP; top++) {
         FrBrick **block = voxels->top[top];
         for (int i = 0; block != NULL && i < BLOCK; i++) {
-            if (block[i] != NULL && block[i]->voxels != NULL) {
+            if (block[i] != NULL && block[i]->owners != NULL) {
                 FrCell first = {{(int16_t)((top % 64) * 64 + (i % 8) * 8),
                                  (int16_t)((top / 64 % 64) * 64 + (i / 8 % 8) * 8),
                                  (int16_t)((top / 4096) * 64 + (i / 64) * 8)}};
@@ -150,8 +158,8 @@ void fr_voxels_each_owned(const FrVoxels *voxels,
 /// Bits of a layer that have an owner.
 static uint64_t owned_bits(const FrBrick *brick, unsigned layer) {
     uint64_t bits = 0;
-    for (unsigned bit = 0; brick->voxels != NULL && bit < 64; bit++) {
-        uint32_t owner = brick->voxels[fr_voxels_slot(layer, bit)].owner;
+    for (unsigned bit = 0; brick->owners != NULL && bit < 64; bit++) {
+        uint32_t owner = brick->owners[fr_voxels_slot(layer, bit)];
         bits |= (uint64_t)(owner != FR_VOXEL_FREE) << bit;
     }
     return bits;
