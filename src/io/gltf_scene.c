@@ -233,8 +233,9 @@ static void add_stand(FrGltf *gltf, const FrStand *stand, const char *name, int 
 }
 
 /// Everything of one plant: its meshes, then a node for each of its stands.
-static FrStatus add_plant(FrGltf *gltf, uint32_t p, const FrMesh *mesh,
+static FrStatus add_plant(FrGltf *gltf, uint32_t p, const FrIoMeshes *meshes,
                           const FrIoOptions *options) {
+    const FrMesh *mesh = meshes->meshes[p];
     const FrPlant *plant = fr_io_plant(gltf->scene, p);
     FrGltfPart *parts = g_new(FrGltfPart, MAX(mesh->part_count, 1));
     uint32_t part_count = fr_gltf_add_arrays(gltf, mesh, parts);
@@ -258,17 +259,15 @@ static FrStatus add_plant(FrGltf *gltf, uint32_t p, const FrMesh *mesh,
             }
         }
     }
-    uint32_t stands = fr_io_stand_count(gltf->scene, p);
-    uint32_t number = 0;
-    for (guint s = 0; s < gltf->scene->stands->len && status == FR_OK; s++) {
-        const FrStand *stand = fr_io_stand(gltf->scene, s);
-        if (stand->plant == p) {
-            char *name = stands == 1 ? g_strdup(plant->name)
-                                     : g_strdup_printf("%s %u", plant->name, ++number);
-            add_stand(gltf, stand, name, wood, is_grouped ? &groups : NULL, options->leaves);
-            gltf->triangles += mesh->index_count / 3;
-            g_free(name);
-        }
+    uint32_t count = status == FR_OK ? fr_io_stand_count(&meshes->stands, p) : 0;
+    const uint32_t *stands = meshes->stands.number + meshes->stands.first[p];
+    for (uint32_t s = 0; s < count; s++) {
+        char *name =
+            count == 1 ? g_strdup(plant->name) : g_strdup_printf("%s %u", plant->name, s + 1);
+        add_stand(gltf, fr_io_stand(gltf->scene, stands[s]), name, wood,
+                  is_grouped ? &groups : NULL, options->leaves);
+        gltf->triangles += mesh->index_count / 3;
+        g_free(name);
     }
     if (is_grouped) {
         groups_clear(&groups);
@@ -291,7 +290,7 @@ FrStatus fr_gltf_add_scene(FrGltf *gltf, const FrIoMeshes *meshes, const FrIoOpt
     FrStatus status = options->leaves == FR_LEAVES_NODES ? check_nodes(gltf) : FR_OK;
     for (uint32_t p = 0; p < meshes->length && status == FR_OK; p++) {
         if (meshes->meshes[p] != NULL) {
-            status = add_plant(gltf, p, meshes->meshes[p], options);
+            status = add_plant(gltf, p, meshes, options);
         }
     }
     return status;

@@ -10,12 +10,26 @@ const FrStand *fr_io_stand(const FrScene *scene, guint stand) {
     return &g_array_index(scene->stands, FrStand, stand);
 }
 
-uint32_t fr_io_stand_count(const FrScene *scene, uint32_t plant) {
-    uint32_t count = 0;
-    for (guint i = 0; i < scene->stands->len; i++) {
-        count += fr_io_stand(scene, i)->plant == plant;
+FrIoStands fr_io_stands_of(const FrScene *scene) {
+    uint32_t plants = scene->plants->len, count = scene->stands->len;
+    FrIoStands stands = {g_new0(uint32_t, plants + 2u), g_new(uint32_t, count + 1u)};
+    for (guint i = 0; i < count; i++) {
+        stands.first[fr_io_stand(scene, i)->plant + 2]++;
     }
-    return count;
+    for (uint32_t p = 0; p < plants; p++) {
+        stands.first[p + 2] += stands.first[p + 1];
+    }
+    // Each plant's end moves from where it begins to where the next one does.
+    for (guint i = 0; i < count; i++) {
+        stands.number[stands.first[fr_io_stand(scene, i)->plant + 1]++] = i;
+    }
+    return stands;
+}
+
+void fr_io_stands_clear(FrIoStands *stands) {
+    g_free(stands->first);
+    g_free(stands->number);
+    *stands = (FrIoStands){0};
 }
 
 static void count_mesh(FrIoCount *count, const FrMesh *mesh, uint32_t stands) {
@@ -32,10 +46,11 @@ static void count_mesh(FrIoCount *count, const FrMesh *mesh, uint32_t stands) {
 FrStatus fr_io_meshes_make(FrIoMeshes *meshes, const FrScene *scene, const FrSkinParams *skin,
                            FrUpAxis up, bool expands, const FrContext *context) {
     *meshes = (FrIoMeshes){.meshes = g_new0(FrMesh *, MAX(scene->plants->len, 1)),
+                           .stands = fr_io_stands_of(scene),
                            .length = scene->plants->len};
     FrStatus status = FR_OK;
     for (uint32_t p = 0; p < meshes->length && status == FR_OK; p++) {
-        uint32_t stands = fr_io_stand_count(scene, p);
+        uint32_t stands = fr_io_stand_count(&meshes->stands, p);
         if (stands == 0) {
             continue;
         }
@@ -60,6 +75,7 @@ void fr_io_meshes_clear(FrIoMeshes *meshes) {
         fr_mesh_free(meshes->meshes[p]);
     }
     g_free(meshes->meshes);
+    fr_io_stands_clear(&meshes->stands);
     *meshes = (FrIoMeshes){0};
 }
 

@@ -11,8 +11,15 @@ typedef struct FrIoCount {
     uint64_t vertices_everywhere, triangles_everywhere;
 } FrIoCount;
 
+/// The stands of each plant of a scene: those of plant p are number[first[p]] … number[first[p + 1]
+/// − 1], in the scene's order.
+typedef struct FrIoStands {
+    uint32_t *first, *number;
+} FrIoStands;
+
 typedef struct FrIoMeshes {
     FrMesh **meshes; ///< one for each plant of the scene; NULL where it stands nowhere
+    FrIoStands stands;
     uint32_t length; ///< plants of the scene
     FrIoCount count;
 } FrIoMeshes;
@@ -25,8 +32,13 @@ void fr_io_meshes_clear(FrIoMeshes *meshes);
 
 const FrPlant *fr_io_plant(const FrScene *scene, uint32_t plant);
 const FrStand *fr_io_stand(const FrScene *scene, guint stand);
+/// Gathered in one pass. Free with fr_io_stands_clear().
+FrIoStands fr_io_stands_of(const FrScene *scene);
+void fr_io_stands_clear(FrIoStands *stands);
 /// How often a plant stands in the scene.
-uint32_t fr_io_stand_count(const FrScene *scene, uint32_t plant);
+static inline uint32_t fr_io_stand_count(const FrIoStands *stands, uint32_t plant) {
+    return stands->first[plant + 1] - stands->first[plant];
+}
 
 /// How a stand moves points of a mesh with that up axis: turned, scaled, moved.
 typedef struct FrPose {

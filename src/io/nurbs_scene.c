@@ -13,10 +13,11 @@ FrStatus fr_io_nurbs_make(FrIoNurbs *nurbs, const FrScene *scene, const FrNurbsP
         .first_colour = g_new0(uint32_t, MAX(plants, 1)),
         .length = plants,
     };
+    FrIoStands standing = fr_io_stands_of(scene);
     FrStatus status = FR_OK;
     for (uint32_t p = 0; p < plants && status == FR_OK; p++) {
         const FrPlant *plant = fr_io_plant(scene, p);
-        uint32_t stands = fr_io_stand_count(scene, p);
+        uint32_t stands = fr_io_stand_count(&standing, p);
         nurbs->first_colour[p] = nurbs->colours;
         nurbs->colours += plant->materials->len + DEFAULT_COLOURS;
         if (stands == 0) {
@@ -37,6 +38,7 @@ FrStatus fr_io_nurbs_make(FrIoNurbs *nurbs, const FrScene *scene, const FrNurbsP
                                "bytes", plant->name, (FrSpan){0}, context->diags);
         }
     }
+    fr_io_stands_clear(&standing);
     if (status != FR_OK) {
         fr_io_nurbs_clear(nurbs);
     }

@@ -35,7 +35,7 @@ static char *plant_name(const FrUsd *usd, uint32_t plant) {
 
 static void add_classes(FrUsd *usd) {
     for (uint32_t p = 0; p < usd->meshes.length && usd->output.error == 0; p++) {
-        if (fr_io_stand_count(usd->scene, p) > 1) {
+        if (fr_io_stand_count(&usd->meshes.stands, p) > 1) {
             char *name = plant_name(usd, p), *path = g_strconcat("/_class_", name, NULL);
             fr_usd_line(usd, "%s", "");
             fr_usd_open(usd, "class Xform \"%s\"", path + 1);
@@ -60,7 +60,7 @@ static void add_pose(FrUsd *usd, const FrStand *stand) {
 static void add_stand(FrUsd *usd, const char *root, guint number) {
     const FrStand *stand = fr_io_stand(usd->scene, number);
     char *name = plant_name(usd, stand->plant);
-    if (fr_io_stand_count(usd->scene, stand->plant) > 1) {
+    if (fr_io_stand_count(&usd->meshes.stands, stand->plant) > 1) {
         fr_usd_line(usd, "def Xform \"%s_%u\" (", name, number + 1);
         fr_usd_line(usd, "    instanceable = true");
         fr_usd_line(usd, "    kind = \"component\"");
