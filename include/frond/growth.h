@@ -108,6 +108,10 @@ typedef struct FrGrowthStats {
 
 typedef struct FrGrowth FrGrowth;
 
+/// What fr_growth_new() and fr_growth_add_seeds() would find wrong, as far as it is known without
+/// standing the obstacles and strewing particles.
+FR_API FR_MUST_USE FrStatus fr_growth_check(const FrGrowthSetup *setup, const FrSeed *seeds,
+                                            uint32_t count, const FrContext *context);
 /// An empty world. FR_ERR_LIMIT if it would take too much memory; then *growth is NULL.
 FR_API FR_MUST_USE FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context,
                                           FrGrowth **growth);
@@ -123,7 +127,8 @@ FR_API FR_MUST_USE FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *
                                                 uint32_t count, const FrContext *context);
 FR_API FR_MUST_USE FrStatus fr_growth_add_particles(FrGrowth *growth, const FrParticle *particles,
                                                     uint64_t count, const FrContext *context);
-/// One step of all plants. FR_CANCELLED or FR_ERR_LIMIT leave the state of before the step.
+/// One step of all plants. FR_CANCELLED or FR_ERR_LIMIT leave the state of before the step. It can
+/// be cancelled until plants begin to change: through light, particles and competition.
 FR_API FR_MUST_USE FrStatus fr_growth_step(FrGrowth *growth, const FrContext *context);
 /// Back to before the last step, as often as `history` allows. False if there is nothing to undo.
 FR_API bool fr_growth_undo(FrGrowth *growth);

@@ -38,8 +38,9 @@ typedef struct FrRun {
 
 enum { FR_MAX_RUNS = 1024 };
 
-/// `reach` is the radius that is mostly asked for, m.
-FR_API FrParticles *fr_particles_new(const FrParticle *particles, uint32_t count, float reach);
+/// `reach` is the radius that is mostly asked for, m. NULL if it was cancelled.
+FR_API FrParticles *fr_particles_new(const FrParticle *particles, uint32_t count, float reach,
+                                     const FrProgress *progress);
 FR_API void fr_particles_free(FrParticles *particles);
 /// Takes the dead out; kept[i] becomes the old index of particle i, for as many as are left.
 FR_API void fr_particles_compact(FrParticles *particles, uint32_t *kept);

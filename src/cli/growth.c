@@ -57,6 +57,12 @@ FrStatus cli_session_grow(CliSession *session, const FrDocument *document, doubl
                     "resume");
         return FR_ERR_USAGE;
     }
+    const FrParam *steps = fr_params_find(fr_growth_table(), "steps");
+    if (cli_growth_takes_steps(document) && (double)options->steps > steps->max) {
+        cli_message("--steps takes at most %.0f for what grows bud by bud, not %" G_GINT64_FORMAT,
+                    steps->max, options->steps);
+        return FR_ERR_USAGE;
+    }
     FrSceneOptions how = {.seed = options->seed,
                           .time = time,
                           .steps = options->steps,

@@ -1,5 +1,5 @@
 /// frond check: what is wrong with documents. They are also built, for much is known only then; but
-/// what grows in the light is not grown.
+/// what grows in the light, or bud by bud, is not grown.
 #include "cli/cli.h"
 
 #include <math.h>
@@ -36,14 +36,14 @@ static bool is_standing(const FrScene *scene, const char *id) {
     return false;
 }
 
-/// Plants that stand nowhere are grown all the same.
+/// Plants that stand nowhere are built all the same.
 static FrStatus check_others(CliSession *session, const FrDocument *document,
                              const FrScene *scene) {
     const GPtrArray *definitions = fr_document_plants(document);
     FrStatus worst = FR_OK;
     for (guint i = 0; i < definitions->len && worst != FR_CANCELLED; i++) {
         const FrPlantDef *definition = g_ptr_array_index(definitions, i);
-        if (is_standing(scene, definition->id)) {
+        if (definition->kind == FR_PLANT_SPECIES || is_standing(scene, definition->id)) {
             continue;
         }
         FrScene *alone = NULL;

@@ -173,8 +173,8 @@ static void meet(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count) {
     }
 }
 
-void fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
-                       const FrContext *context) {
+FrStatus fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+                           const FrContext *context) {
     enum { GRAIN = 64 };
     FrParticles *particles = growth->particles;
     bool is_wanted = false;
@@ -182,15 +182,16 @@ void fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count
         is_wanted |= buds[b].params->fate != FR_FATE_COLONIZE;
     }
     if (particles == NULL || !is_wanted) {
-        return;
+        return FR_OK;
     }
     Attracting attracting = {.growth = growth, .buds = buds};
     attracting.nearest = g_new(uint64_t, particles->count + 1);
     attracting.may_draw = g_new0(uint8_t, count + 1);
     memset(attracting.nearest, 0xff, particles->count * sizeof(uint64_t));
     meet(growth, buds, count);
-    fr_parallel_for(context->pool, count, GRAIN, find_nearest, &attracting, NULL);
-    fr_parallel_for(context->pool, count, GRAIN, sum_up, &attracting, NULL);
+    fr_parallel_for(context->pool, count, GRAIN, find_nearest, &attracting, context->progress);
+    fr_parallel_for(context->pool, count, GRAIN, sum_up, &attracting, context->progress);
     g_free(attracting.nearest);
     g_free(attracting.may_draw);
+    return fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : FR_OK;
 }

@@ -137,7 +137,7 @@ static void add_sites(FrGrowth *growth, FrColony *colony, uint64_t birth) {
     g_array_free(order, TRUE);
 }
 
-static FrColony *new_colony(FrGrowth *growth) {
+static FrColony *new_colony(FrGrowth *growth, const FrProgress *progress) {
     FrColony *colony = g_new0(FrColony, 1);
     colony->count = growth->particles->count;
     colony->nearest = g_new(float, colony->count + 1);
@@ -153,7 +153,7 @@ static FrColony *new_colony(FrGrowth *growth) {
     colony->sites = g_array_new(FALSE, FALSE, sizeof(Site));
     colony->pulls = g_array_new(FALSE, FALSE, sizeof(Pull));
     colony->pulled = g_array_new(FALSE, FALSE, sizeof(uint32_t));
-    for (uint64_t birth = 0; birth < growth->step; birth++) {
+    for (uint64_t birth = 0; birth < growth->step && !fr_progress_is_cancelled(progress); birth++) {
         add_sites(growth, colony, birth);
     }
     return colony;
@@ -164,7 +164,7 @@ static FrColony *new_colony(FrGrowth *growth) {
 typedef struct Comparing {
     const FrParticles *particles;
     FrColony *colony;
-    size_t chunk; ///< particles of a chunk
+    const FrProgress *progress;
 } Comparing;
 
 /// The plain case, without radii of particles' own, in a form that compilers turn into vectors.
@@ -209,7 +209,9 @@ static void compare_range(void *data, size_t begin, size_t end, int worker) {
     const FrParticles *particles = comparing->particles;
     FrColony *colony = comparing->colony;
     FrRun runs[FR_MAX_RUNS];
-    for (uint32_t s = colony->known; s < colony->sites->len; s++) {
+    uint32_t end_site = colony->sites->len;
+    for (uint32_t s = colony->known; s < end_site && !fr_progress_is_cancelled(comparing->progress);
+         s++) {
         const Site *site = &g_array_index(colony->sites, Site, s);
         float widest =
             particles->has_own ? fmaxf(site->widest, particles->widest_influence) : site->widest;
@@ -228,10 +230,11 @@ static void compare_range(void *data, size_t begin, size_t end, int worker) {
 }
 
 static void compare_new(FrGrowth *growth, FrColony *colony, const FrContext *context) {
-    Comparing comparing = {growth->particles, colony, 0};
+    Comparing comparing = {growth->particles, colony, context->progress};
     size_t threads = (size_t)fr_pool_threads(context->pool);
     size_t chunk = colony->count / (threads == 1 ? 1 : 4 * threads) + 1;
-    fr_parallel_for(context->pool, colony->count, chunk, compare_range, &comparing, NULL);
+    fr_parallel_for(context->pool, colony->count, chunk, compare_range, &comparing,
+                    context->progress);
     colony->known = colony->sites->len;
 }
 
@@ -341,29 +344,42 @@ static void compact(FrParticles *particles, FrColony *colony) {
     g_free(kept);
 }
 
-void fr_growth_colonize(FrGrowth *growth, const FrContext *context) {
-    bool has_colonizers = false;
+/// Compares the new nodes with the particles. Once it is cancelled the colony is to be made anew.
+static FrStatus compare(FrGrowth *growth, const FrContext *context) {
+    if (growth->colony != NULL && growth->colony->count != growth->particles->count) {
+        fr_colony_free(growth->colony);
+        growth->colony = NULL;
+    }
+    if (growth->colony == NULL) {
+        growth->colony = new_colony(growth, context->progress);
+    } else {
+        add_sites(growth, growth->colony, growth->step - 1);
+    }
+    compare_new(growth, growth->colony, context);
+    if (fr_progress_is_cancelled(context->progress)) {
+        fr_colony_free(growth->colony);
+        growth->colony = NULL;
+        return FR_CANCELLED;
+    }
+    return FR_OK;
+}
+
+FrStatus fr_growth_colonize(FrGrowth *growth, const FrContext *context, bool *has_colonizers) {
+    *has_colonizers = false;
     for (uint32_t p = 0; p < growth->plant_count; p++) {
-        FrGrownPlant *plant = &growth->plants[p];
-        if (is_colonizer(growth, plant)) {
-            has_colonizers = true;
-            plant->bud_count = 0; // the seed's bud: whether it grows is decided below
+        *has_colonizers |= is_colonizer(growth, &growth->plants[p]);
+    }
+    bool has_particles = growth->particles != NULL;
+    FrStatus status = *has_colonizers && has_particles ? compare(growth, context) : FR_OK;
+    if (status != FR_OK || !*has_colonizers) {
+        return status;
+    }
+    for (uint32_t p = 0; p < growth->plant_count; p++) {
+        if (is_colonizer(growth, &growth->plants[p])) {
+            growth->plants[p].bud_count = 0; // the seed's bud: whether it grows is decided below
         }
     }
-    if (!has_colonizers) {
-        return;
-    }
-    if (growth->particles != NULL) {
-        if (growth->colony != NULL && growth->colony->count != growth->particles->count) {
-            fr_colony_free(growth->colony);
-            growth->colony = NULL;
-        }
-        if (growth->colony == NULL) {
-            growth->colony = new_colony(growth);
-        } else {
-            add_sites(growth, growth->colony, growth->step - 1);
-        }
-        compare_new(growth, growth->colony, context);
+    if (has_particles) {
         sum_up(growth->particles, growth->colony);
         grow_pulled(growth, growth->colony);
         if (growth->particles->dead_count > growth->particles->count / 2) {
@@ -371,4 +387,5 @@ void fr_growth_colonize(FrGrowth *growth, const FrContext *context) {
         }
     }
     rise(growth);
+    return FR_OK;
 }

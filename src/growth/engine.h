@@ -209,6 +209,11 @@ uint32_t fr_growth_gather_live(FrGrowth *growth, uint32_t *count, const FrContex
 /// Returns how many.
 uint32_t fr_growth_gather_proposals(FrGrowth *growth, uint32_t internode, const FrContext *context);
 
+// ---- sense.c ----------------------------------------------------------------------------------
+/// What buds learn before plants change: light, particles, stronger apices. FR_CANCELLED leaves
+/// everything as it was.
+FR_MUST_USE FrStatus fr_growth_sense(FrGrowth *growth, const FrContext *context);
+
 // ---- scatter.c, attract.c -----------------------------------------------------------------------
 void fr_growth_save_particles(const FrGrowth *growth, GByteArray *out);
 bool fr_growth_take_particles(FrGrowth *growth, FrBytesReader *reader);
@@ -222,11 +227,13 @@ void fr_growth_reach_particles(FrGrowth *growth);
 typedef struct FrColony FrColony;
 
 void fr_colony_free(FrColony *colony);
-/// Buds where particles draw the nodes of plants that colonize space.
-void fr_growth_colonize(FrGrowth *growth, const FrContext *context);
+/// Buds where particles draw the nodes of plants that colonize space. FR_CANCELLED if that came
+/// before any changed.
+FR_MUST_USE FrStatus fr_growth_colonize(FrGrowth *growth, const FrContext *context,
+                                        bool *has_colonizers);
 /// Turns buds towards their particles.
-void fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
-                       const FrContext *context);
+FR_MUST_USE FrStatus fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+                                       const FrContext *context);
 
 // ---- other_light.c ----------------------------------------------------------------------------
 typedef struct FrOtherScene FrOtherScene;
@@ -302,7 +309,8 @@ void fr_growth_wake(const FrGrowth *growth, FrGrownPlant *plant, FrScratch *scra
 double *fr_growth_auxin(const FrGrownPlant *plant, const FrSpeciesParams *params,
                         FrScratch *scratch);
 /// Tells growing buds to rest for stronger ones ahead of them.
-void fr_growth_compete(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count);
+FR_MUST_USE FrStatus fr_growth_compete(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+                                       const FrContext *context);
 
 // ---- pipe.c -----------------------------------------------------------------------------------
 /// Wood of each node in tips: r^e over that of a tip.

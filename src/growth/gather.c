@@ -119,9 +119,8 @@ static void put_proposals(void *data, size_t begin, size_t end, int worker) {
                 growth->owners[owner] = (FrOwner){(uint32_t)p, bud->axis, axis->bearer};
                 axis->owner = owner++;
             }
-            growth->sort_keys[next] =
-                fr_random_bits(bud->key, FR_CHANCE_CLAIM,
-                               (uint32_t)growth->step * 64u + gathering->internode);
+            growth->sort_keys[next] = fr_random_bits(
+                bud->key, FR_CHANCE_CLAIM, (uint32_t)growth->step * 64u + gathering->internode);
             growth->open[next] = next;
             growth->proposals[next] = proposal_of(plant, (uint32_t)p, b);
             next++;

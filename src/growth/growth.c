@@ -252,16 +252,54 @@ static void begin_plant(FrGrowth *growth, FrGrownPlant *plant) {
     bud->state = FR_LIVE_GROWING;
 }
 
-static bool has_place(const FrGrowth *growth, const FrSeed *seed) {
-    FrCell cell;
+static bool is_in_arena(const FrGrowthParams *params, const FrSeed *seed) {
     for (int axis = 0; axis < 3; axis++) {
-        if (!(seed->at[axis] >= (double)growth->params.min.raw[axis] &&
-              seed->at[axis] <= (double)growth->params.max.raw[axis])) {
+        if (!(seed->at[axis] >= (double)params->min.raw[axis] &&
+              seed->at[axis] <= (double)params->max.raw[axis])) {
             return false;
         }
     }
-    return fr_voxels_cell(growth->voxels, seed->at, &cell) &&
+    return true;
+}
+
+static bool has_place(const FrGrowth *growth, const FrSeed *seed) {
+    FrCell cell;
+    return is_in_arena(&growth->params, seed) && fr_voxels_cell(growth->voxels, seed->at, &cell) &&
            fr_voxels_owner(growth->voxels, cell) != FR_VOXEL_SOLID;
+}
+
+static FrStatus check_plants(uint64_t count, const FrContext *context) {
+    return fr_limit_check(count, context->limits.plants, "plants", "the growth", (FrSpan){0},
+                          context->diags);
+}
+
+static void tell_left_out(const FrSeed *missing, uint32_t left_out, uint32_t count, bool is_all,
+                          const FrContext *context) {
+    if (left_out > 0) {
+        fr_diags_add(
+            context->diags, FR_WARNING, "seed-place", (FrSpan){0},
+            "%u of %u seeds have no place to stand, the first of them at %g,%g,%g: outside "
+            "the arena or in an obstacle%s",
+            left_out, count, missing->at[0], missing->at[1], missing->at[2],
+            is_all ? "; nothing grows" : "");
+    }
+}
+
+FrStatus fr_growth_check(const FrGrowthSetup *setup, const FrSeed *seeds, uint32_t count,
+                         const FrContext *context) {
+    FrStatus status = check_setup(setup, cell_of(setup), context);
+    if (status == FR_OK) {
+        status = check_plants(count, context);
+    }
+    const FrSeed *missing = NULL;
+    uint32_t left_out = 0;
+    for (uint32_t i = 0; i < count && status == FR_OK; i++) {
+        if (!is_in_arena(&setup->params, &seeds[i])) {
+            missing = left_out++ == 0 ? &seeds[i] : missing;
+        }
+    }
+    tell_left_out(missing, left_out, count, left_out == count, context);
+    return status;
 }
 
 /// Only the first plants stay.
@@ -274,9 +312,7 @@ static void keep_plants(FrGrowth *growth, uint32_t count) {
 
 FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t count,
                              const FrContext *context) {
-    FrStatus status =
-        fr_limit_check(fr_count_add(growth->plant_count, count), context->limits.plants, "plants",
-                       "the growth", (FrSpan){0}, context->diags);
+    FrStatus status = check_plants(fr_count_add(growth->plant_count, count), context);
     if (status != FR_OK) {
         return status;
     }
@@ -307,13 +343,8 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     g_array_free(particles, TRUE);
     if (status != FR_OK) {
         keep_plants(growth, first);
-    } else if (left_out > 0) {
-        fr_diags_add(
-            context->diags, FR_WARNING, "seed-place", (FrSpan){0},
-            "%u of %u seeds have no place to stand, the first of them at %g,%g,%g: outside "
-            "the arena or in an obstacle%s",
-            left_out, count, seeds[missing].at[0], seeds[missing].at[1], seeds[missing].at[2],
-            left_out == growth->plant_count ? "; nothing grows" : "");
+    } else {
+        tell_left_out(&seeds[missing], left_out, count, left_out == growth->plant_count, context);
     }
     return status;
 }

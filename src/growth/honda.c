@@ -81,13 +81,32 @@ static bool is_stopped(const FrLiveBudAt *buds, const Apex *apices, uint32_t cou
     return false;
 }
 
-void fr_growth_compete(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count) {
+typedef struct Competing {
+    const FrLiveBudAt *buds;
+    const Apex *apices;
+    uint32_t count;
+    double width;
+} Competing;
+
+static void compete_range(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Competing *all = data;
+    for (size_t i = begin; i < end; i++) {
+        const FrLiveBudAt *own = &all->buds[i];
+        own->bud->is_resting = own->params->apex_distance > 0 &&
+                               is_stopped(all->buds, all->apices, all->count, all->width, own);
+    }
+}
+
+FrStatus fr_growth_compete(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+                           const FrContext *context) {
+    enum { GRAIN = 64 };
     double width = 0;
     for (uint32_t i = 0; i < growth->species_count; i++) {
         width = MAX(width, growth->species[i].params.apex_distance);
     }
     if (width <= 0) {
-        return;
+        return FR_OK;
     }
     Apex *apices = g_new(Apex, count + 1);
     for (uint32_t i = 0; i < count; i++) {
@@ -96,9 +115,8 @@ void fr_growth_compete(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count
         apices[i] = (Apex){cell_code(at), i};
     }
     qsort(apices, count, sizeof *apices, compare);
-    for (uint32_t i = 0; i < count; i++) {
-        bool competes = buds[i].params->apex_distance > 0;
-        buds[i].bud->is_resting = competes && is_stopped(buds, apices, count, width, &buds[i]);
-    }
+    Competing competing = {buds, apices, count, width};
+    fr_parallel_for(context->pool, count, GRAIN, compete_range, &competing, context->progress);
     g_free(apices);
+    return fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : FR_OK;
 }

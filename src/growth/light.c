@@ -162,7 +162,7 @@ static FrStatus look_into_shadows(FrGrowth *growth, const FrLiveBudAt *buds, uin
     }
     fr_shadows_settle(growth->shadows, context);
     Shading shading = {growth, buds};
-    fr_parallel_for(context->pool, count, GRAIN, light_range, &shading, NULL);
+    fr_parallel_for(context->pool, count, GRAIN, light_range, &shading, context->progress);
     return FR_OK;
 }
 
@@ -174,7 +174,7 @@ static void full_light(const FrGrowth *growth, const FrLiveBudAt *buds, uint32_t
     }
 }
 
-FrStatus fr_growth_light(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+static FrStatus light_by(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
                          const FrContext *context) {
     if (growth->light != NULL) {
         return fr_growth_ask_light(growth, buds, count, context);
@@ -189,4 +189,11 @@ FrStatus fr_growth_light(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t cou
         full_light(growth, buds, count);
         return FR_OK;
     }
+}
+
+FrStatus fr_growth_light(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
+                         const FrContext *context) {
+    FrStatus status = light_by(growth, buds, count, context);
+    bool is_cancelled = status == FR_OK && fr_progress_is_cancelled(context->progress);
+    return is_cancelled ? FR_CANCELLED : status;
 }

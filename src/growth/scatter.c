@@ -3,6 +3,7 @@
 
 #include <cglm/struct.h>
 #include <math.h>
+#include <string.h>
 
 enum { TRIES = 64 };
 
@@ -18,27 +19,36 @@ static float usual_reach(const FrGrowth *growth) {
     return reach;
 }
 
+static FrStatus check_count(uint64_t count, const FrContext *context) {
+    FrStatus status =
+        fr_limit_check(fr_count_multiply(count, 2 * sizeof(FrParticle)), context->limits.bytes,
+                       "bytes", "the attraction particles", (FrSpan){0}, context->diags);
+    if (status == FR_OK && count >= INT32_MAX) {
+        status = fr_limit_check(count, INT32_MAX, "particles", "the growth", (FrSpan){0},
+                                context->diags);
+    }
+    return status;
+}
+
 FrStatus fr_growth_add_particles(FrGrowth *growth, const FrParticle *particles, uint64_t count,
                                  const FrContext *context) {
     uint32_t old = 0;
     FrParticle *all =
         growth->particles == NULL ? NULL : fr_particles_living(growth->particles, &old);
-    FrStatus status = fr_limit_check(
-        fr_count_multiply(fr_count_add(old, count), 2 * sizeof(FrParticle)), context->limits.bytes,
-        "bytes", "the attraction particles", (FrSpan){0}, context->diags);
-    if (status == FR_OK && fr_count_add(old, count) >= INT32_MAX) {
-        status = fr_limit_check(count, INT32_MAX, "particles", "the growth", (FrSpan){0},
-                                context->diags);
-    }
+    FrStatus status = check_count(fr_count_add(old, count), context);
     if (status == FR_OK && count > 0) {
         all = g_renew(FrParticle, all, old + count);
-        for (uint64_t i = 0; i < count; i++) {
-            all[old + i] = particles[i];
+        memcpy(all + old, particles, count * sizeof *particles);
+        FrParticles *made =
+            fr_particles_new(all, (uint32_t)(old + count), usual_reach(growth), context->progress);
+        if (made == NULL) {
+            status = FR_CANCELLED;
+        } else {
+            fr_particles_free(growth->particles);
+            fr_colony_free(growth->colony);
+            growth->colony = NULL;
+            growth->particles = made;
         }
-        fr_particles_free(growth->particles);
-        fr_colony_free(growth->colony);
-        growth->colony = NULL;
-        growth->particles = fr_particles_new(all, (uint32_t)(old + count), usual_reach(growth));
     }
     g_free(all);
     return status;
@@ -166,9 +176,13 @@ FrParticle *fr_growth_particles(const FrGrowth *growth, uint64_t *count, bool **
 
 FrStatus fr_growth_strew_particles(FrGrowth *growth, const FrContext *context) {
     uint32_t count = (uint32_t)growth->params.particles;
+    FrStatus status = check_count(count, context);
+    if (status != FR_OK) {
+        return status;
+    }
     FrParticle *particles = g_new(FrParticle, count + 1u);
     FrKey key = fr_key_root((uint64_t)growth->params.seed);
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count && !fr_progress_is_cancelled(context->progress); i++) {
         particles[i] = (FrParticle){.w = 1, .kill = -1};
         for (uint32_t axis = 0; axis < 3; axis++) {
             float low = growth->params.min.raw[axis], high = growth->params.max.raw[axis];
@@ -176,7 +190,9 @@ FrStatus fr_growth_strew_particles(FrGrowth *growth, const FrContext *context) {
             particles[i].at.raw[axis] = low + (high - low) * (float)part;
         }
     }
-    FrStatus status = fr_growth_add_particles(growth, particles, count, context);
+    status = fr_progress_is_cancelled(context->progress)
+                 ? FR_CANCELLED
+                 : fr_growth_add_particles(growth, particles, count, context);
     g_free(particles);
     return status;
 }
@@ -207,7 +223,7 @@ bool fr_growth_take_particles(FrGrowth *growth, FrBytesReader *reader) {
                    it->influence >= 0;
     }
     if (is_right && count > 0) {
-        growth->particles = fr_particles_new(particles, (uint32_t)count, usual_reach(growth));
+        growth->particles = fr_particles_new(particles, (uint32_t)count, usual_reach(growth), NULL);
     }
     g_free(particles);
     return is_right;

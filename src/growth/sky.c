@@ -311,8 +311,8 @@ void fr_sky_look(const FrGrowth *growth, const FrSky *sky, const FrShades *shade
         looking.depth[i] = g_new(float, pixels);
     }
     looking.is_seen = g_new(uint8_t, (size_t)sky->count * count);
-    fr_parallel_for(context->pool, sky->count, 1, look, &looking, NULL);
-    fr_parallel_for(context->pool, count, GRAIN, sum_up, &looking, NULL);
+    fr_parallel_for(context->pool, sky->count, 1, look, &looking, context->progress);
+    fr_parallel_for(context->pool, count, GRAIN, sum_up, &looking, context->progress);
     for (int i = 0; i < threads; i++) {
         g_free(looking.depth[i]);
     }

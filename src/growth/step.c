@@ -90,17 +90,6 @@ static void room_for_workers(FrGrowth *growth, const FrContext *context) {
     }
 }
 
-static FrStatus sense(FrGrowth *growth, const FrContext *context) {
-    fr_growth_colonize(growth, context);
-    uint32_t count, growing = fr_growth_gather_live(growth, &count, context);
-    gint64 begin = g_get_monotonic_time();
-    FrStatus status = fr_growth_light(growth, growth->live, count, context);
-    growth->light_seconds = (double)(g_get_monotonic_time() - begin) * 1e-6;
-    fr_growth_attract(growth, growth->live, growing, context);
-    fr_growth_compete(growth, growth->live, growing);
-    return status;
-}
-
 static void make_shoots(FrGrowth *growth, const FrContext *context) {
     for (uint32_t internode = 0;; internode++) {
         uint32_t count = fr_growth_gather_proposals(growth, internode, context);
@@ -113,12 +102,11 @@ static void make_shoots(FrGrowth *growth, const FrContext *context) {
     }
 }
 
-/// Keeps the state of before the step.
-static void remember(FrGrowth *growth) {
-    if (growth->params.history == 0) {
-        return;
+/// Keeps the state of before the step; NULL: none.
+static void remember(FrGrowth *growth, GBytes *before) {
+    if (before != NULL) {
+        g_ptr_array_add(growth->history, before);
     }
-    g_ptr_array_add(growth->history, fr_growth_save(growth));
     if (growth->history->len > growth->params.history) {
         g_ptr_array_remove_index(growth->history, 0);
     }
@@ -170,14 +158,16 @@ FrStatus fr_growth_step(FrGrowth *growth, const FrContext *context) {
         return status;
     }
     gint64 begin = g_get_monotonic_time();
-    remember(growth);
     room_for_workers(growth, context);
+    GBytes *before = growth->params.history > 0 ? fr_growth_save(growth) : NULL;
     growth->step++;
-    status = sense(growth, context);
+    status = fr_growth_sense(growth, context);
     if (status != FR_OK) {
         growth->step--;
+        g_clear_pointer(&before, g_bytes_unref);
         return status;
     }
+    remember(growth, before);
     fr_parallel_for(context->pool, growth->plant_count, 1, begin_plants, growth, NULL);
     make_shoots(growth, context);
     fr_growth_reach_particles(growth);

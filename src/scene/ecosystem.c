@@ -198,8 +198,8 @@ static FrStatus add_solids(const FrEcosystem *ecosystem, World *world, const FrS
     return status;
 }
 
-static FrStatus make_world(const FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
-                           const FrContext *context, World *world) {
+/// All but the solids.
+static void set_up(const FrEcosystem *ecosystem, const FrScene *scene, World *world) {
     const FrDocument *document = ecosystem->document;
     *world = (World){.setup = {.params = fr_document_growth(document)->params}};
     FrGrowthParams *params = &world->setup.params;
@@ -219,9 +219,14 @@ static FrStatus make_world(const FrEcosystem *ecosystem, const FrScene *scene, c
     world->setup.species = world->species;
     world->setup.species_count = count;
     find_suns(world, scene);
+}
+
+static FrStatus make_world(const FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
+                           const FrContext *context, World *world) {
+    set_up(ecosystem, scene, world);
     FrStatus status = add_solids(ecosystem, world, scene, hills, context);
     if (status != FR_OK) {
-        clear_world(world, count);
+        clear_world(world, world->setup.species_count);
     }
     return status;
 }
@@ -337,6 +342,26 @@ FrStatus fr_ecosystem_begin(FrEcosystem *ecosystem, const FrScene *scene, const 
         previous->species = g_steal_pointer(&ecosystem->species);
         previous->envelopes = g_steal_pointer(&ecosystem->envelopes);
     }
+    return status;
+}
+
+FrStatus fr_ecosystem_check(const FrEcosystem *ecosystem, const FrScene *scene,
+                            const FrContext *context) {
+    if (ecosystem->definitions->len == 0) {
+        return FR_OK;
+    }
+    World world;
+    set_up(ecosystem, scene, &world);
+    world.solids = fr_solids_new();
+    Told told = listen(context);
+    FrStatus status =
+        fr_growth_check(&world.setup, (const FrSeed *)(const void *)ecosystem->seeds->data,
+                        ecosystem->seeds->len, &told.context);
+    if (status == FR_OK) {
+        status = fr_particles_check(fr_document_growth(ecosystem->document), 0, &told.context);
+    }
+    tell(&told, ecosystem->document);
+    clear_world(&world, world.setup.species_count);
     return status;
 }
 

@@ -20,6 +20,9 @@ bool fr_ecosystem_is_empty(const FrEcosystem *ecosystem);
 /// previous one is as it was.
 FR_MUST_USE FrStatus fr_ecosystem_begin(FrEcosystem *ecosystem, const FrScene *scene,
                                         const FrHills *hills, const FrContext *context);
+/// Says what is wrong with species, seeds and particles without making any of it.
+FR_MUST_USE FrStatus fr_ecosystem_check(const FrEcosystem *ecosystem, const FrScene *scene,
+                                        const FrContext *context);
 /// One step, which is told in the scene's.
 FR_MUST_USE FrStatus fr_ecosystem_step(FrEcosystem *ecosystem, FrScene *scene,
                                        const FrContext *context);

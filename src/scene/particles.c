@@ -60,9 +60,7 @@ static FrParticle draw(const FrParticlesDef *def, FrKey key, uint32_t k) {
     return particle;
 }
 
-FrStatus fr_particles_strewn(const FrGrowthDef *growth, guint first, const FrContext *context,
-                             GArray **particles) {
-    *particles = g_array_new(FALSE, FALSE, sizeof(FrParticle));
+FrStatus fr_particles_check(const FrGrowthDef *growth, guint first, const FrContext *context) {
     uint64_t wanted = 0;
     FrStatus status = FR_OK;
     for (guint i = first; i < growth->particles->len && status == FR_OK; i++) {
@@ -70,10 +68,21 @@ FrStatus fr_particles_strewn(const FrGrowthDef *growth, guint first, const FrCon
         wanted = fr_count_add(wanted, (uint64_t)def->number);
         status = fr_limit_check(wanted, context->limits.organs, "organs", "the particles",
                                 def->span, context->diags);
+    }
+    return status;
+}
+
+FrStatus fr_particles_strewn(const FrGrowthDef *growth, guint first, const FrContext *context,
+                             GArray **particles) {
+    *particles = g_array_new(FALSE, FALSE, sizeof(FrParticle));
+    FrStatus status = fr_particles_check(growth, first, context);
+    for (guint i = first; i < growth->particles->len && status == FR_OK; i++) {
+        const FrParticlesDef *def = g_ptr_array_index(growth->particles, i);
         FrKey key = fr_key_child(fr_key_root((uint64_t)def->seed), i);
         for (uint32_t k = 0; k < def->number && status == FR_OK; k++) {
             FrParticle particle = draw(def, key, k);
             g_array_append_val(*particles, particle);
+            status = fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : FR_OK;
         }
     }
     if (status != FR_OK) {

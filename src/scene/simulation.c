@@ -14,7 +14,7 @@ void fr_simulation_clear(FrSimulation *simulation) {
 }
 
 bool fr_simulation_is_growing(const FrSimulation *simulation) {
-    return !fr_ecosystem_is_empty(simulation->ecosystem);
+    return fr_simulation_growth(simulation) != NULL;
 }
 
 static void free_plant(void *plant) {

@@ -2,7 +2,6 @@
 #include "frond/particles.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum { MAX_CELLS = 1 << 24 };
 
@@ -16,14 +15,17 @@ static bool comes_before(const FrParticle *a, const FrParticle *b) {
     return a->influence != b->influence ? a->influence < b->influence : a->kill < b->kill;
 }
 
-static int compare_places(const void *a, const void *b) {
-    return (int)comes_before(b, a) - (int)comes_before(a, b);
+/// Once it is cancelled all are alike, so that sorting ends soon.
+static int compare_places(const void *a, const void *b, void *progress) {
+    return fr_progress_is_cancelled(progress) ? 0
+                                              : (int)comes_before(b, a) - (int)comes_before(a, b);
 }
 
-static void sort_cell(FrParticle *particles, uint32_t count) {
+static void sort_cell(FrParticle *particles, uint32_t count, const FrProgress *progress) {
     enum { FEW = 32 };
     if (count > FEW) {
-        qsort(particles, count, sizeof *particles, compare_places);
+        g_qsort_with_data(particles, (gint)count, sizeof *particles, compare_places,
+                          (void *)progress);
         return;
     }
     for (uint32_t i = 1; i < count; i++) {
@@ -87,7 +89,8 @@ static size_t cell_count(const FrParticles *grid) {
 }
 
 /// Brings places into the order of cells: counted, then each put where its cell begins.
-static void sort_places(FrParticles *grid, const FrParticle *places, FrParticle *sorted) {
+static void sort_places(FrParticles *grid, const FrParticle *places, FrParticle *sorted,
+                        const FrProgress *progress) {
     size_t cells = cell_count(grid);
     uint32_t *cell = g_new(uint32_t, grid->count + 1);
     grid->start = g_new0(uint32_t, cells + 2);
@@ -101,8 +104,8 @@ static void sort_places(FrParticles *grid, const FrParticle *places, FrParticle 
     for (uint32_t i = 0; i < grid->count; i++) {
         sorted[grid->start[cell[i] + 1]++] = places[i];
     }
-    for (size_t k = 0; k < cells; k++) {
-        sort_cell(sorted + grid->start[k], grid->start[k + 1] - grid->start[k]);
+    for (size_t k = 0; k < cells && !fr_progress_is_cancelled(progress); k++) {
+        sort_cell(sorted + grid->start[k], grid->start[k + 1] - grid->start[k], progress);
     }
     g_free(cell);
 }
@@ -128,7 +131,8 @@ static void fill_columns(FrParticles *grid, const FrParticle *places) {
     }
 }
 
-FrParticles *fr_particles_new(const FrParticle *particles, uint32_t count, float reach) {
+FrParticles *fr_particles_new(const FrParticle *particles, uint32_t count, float reach,
+                              const FrProgress *progress) {
     FrParticles *grid = g_new0(FrParticles, 1);
     FrParticle *places = g_new(FrParticle, count + 1), *sorted = g_new(FrParticle, count + 1);
     grid->directions = g_new(FrParticle, count + 1);
@@ -140,10 +144,13 @@ FrParticles *fr_particles_new(const FrParticle *particles, uint32_t count, float
         }
     }
     lay_grid(grid, places, grid->count, reach);
-    sort_places(grid, places, sorted);
+    sort_places(grid, places, sorted, progress);
     fill_columns(grid, sorted);
     g_free(places);
     g_free(sorted);
+    if (fr_progress_is_cancelled(progress)) {
+        g_clear_pointer(&grid, fr_particles_free);
+    }
     return grid;
 }
 

@@ -273,6 +273,10 @@ static void test_apart(void) {
     world_clear(&world);
 }
 
+static void compete(World *world, const FrLiveBudAt *buds, uint32_t count) {
+    g_assert_cmpint(fr_growth_compete(world->growth, buds, count, &world->context), ==, FR_OK);
+}
+
 /// E14.
 static void test_apices(void) {
     World world;
@@ -288,14 +292,14 @@ static void test_apices(void) {
                                 .params = &world.growth->species[0].params,
                                 .world = fr_bud_world(&world.growth->plants[i], bud)};
     }
-    fr_growth_compete(world.growth, buds, 2); // of equals one goes on
+    compete(&world, buds, 2); // of equals one goes on
     g_assert_cmpint(buds[0].bud->is_resting + buds[1].bud->is_resting, ==, 1);
     buds[0].bud->light = 0.5f;
-    fr_growth_compete(world.growth, buds, 2);
+    compete(&world, buds, 2);
     g_assert_true(buds[0].bud->is_resting);
     g_assert_false(buds[1].bud->is_resting);
     buds[0].bud->direction.x = -1; // nothing lies ahead of it any more
-    fr_growth_compete(world.growth, buds, 2);
+    compete(&world, buds, 2);
     g_assert_false(buds[0].bud->is_resting);
     world_clear(&world);
 }
@@ -632,6 +636,51 @@ static void test_priority(void) {
     check_shares(FR_FATE_PRIORITY);
 }
 
+/// Cancelled after light and particles have changed what buds know, and have killed.
+static void test_cancelled(void) {
+    World world;
+    world_init(&world);
+    world_set(&world, "particle-rule", "bud");
+    world_set(&world, "kill", "0.5");
+    world_sow_one(&world);
+    world_step(&world, 6);
+    FrGrowthStats before = fr_growth_stats(world.growth);
+    const FrLiveBud *bud = &world.growth->plants[0].buds[0];
+    FrParticle near = {.at = fr_bud_world(&world.growth->plants[0], bud), .w = 1, .kill = -1};
+    g_assert_cmpint(fr_growth_add_particles(world.growth, &near, 1, &world.context), ==, FR_OK);
+    world.growth->params.light = FR_GROWTH_FULL;
+    world.context.progress = fr_progress_new(NULL, NULL);
+    fr_progress_cancel(world.context.progress);
+    g_assert_cmpint(fr_growth_sense(world.growth, &world.context), ==, FR_CANCELLED);
+    FrGrowthStats after = fr_growth_stats(world.growth);
+    g_assert_cmpuint(after.digest, ==, before.digest);
+    g_assert_cmpuint(after.particles, ==, 1);
+    fr_progress_free(world.context.progress);
+    world.context.progress = NULL;
+    g_assert_cmpint(fr_growth_sense(world.growth, &world.context), ==, FR_OK);
+    after = fr_growth_stats(world.growth);
+    g_assert_cmpuint(after.digest, !=, before.digest);
+    world_clear(&world);
+}
+
+/// What is wrong with a setup is known without an arena of cells and particles.
+static void test_checked(void) {
+    World world;
+    world_init(&world);
+    world.context.limits.bytes = 1000;
+    world.setup.params.particles = 1000000;
+    const FrSeed seeds[2] = {{.id = 1}, {.at = {100, 0, 0}, .id = 2}};
+    g_assert_cmpint(fr_growth_check(&world.setup, seeds, 2, &world.context), ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(world.context.diags), ==, 1);
+    g_assert_cmpstr(fr_diags_get(world.context.diags, 0)->code, ==, "seed-place");
+    world.context.limits.plants = 1;
+    g_assert_cmpint(fr_growth_check(&world.setup, seeds, 2, &world.context), ==, FR_ERR_LIMIT);
+    world.context.limits.plants = 2;
+    world.setup.params.cell = 0.0001;
+    g_assert_cmpint(fr_growth_check(&world.setup, seeds, 2, &world.context), ==, FR_ERR_DOCUMENT);
+    world_clear(&world);
+}
+
 static void test_presets(void) {
     for (const char *const *name = fr_species_presets(); *name != NULL; name++) {
         World world;
@@ -677,6 +726,10 @@ int main(int argc, char **argv) {
     g_test_add_func("/growth/rules/the constants of 2009 give the counts of 2009", test_palubicki);
     g_test_add_func("/growth/rules/vigour is shared out at forks", test_flux);
     g_test_add_func("/growth/rules/vigour is shared out by rank", test_priority);
+    g_test_add_func(
+        "/growth/rules/a step that is cancelled before plants change leaves all as it was",
+        test_cancelled);
+    g_test_add_func("/growth/rules/a setup is checked without making its world", test_checked);
     g_test_add_func("/growth/rules/every shipped species grows", test_presets);
     return g_test_run();
 }

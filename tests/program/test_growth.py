@@ -114,11 +114,19 @@ def thinning(folder):
 def checked_soon(folder):
     """What is wrong with a growth is said without growing it."""
     began = time.monotonic()
-    tap.run("check", FOREST)
+    tap.run("check", FOREST, "--limit", "bytes=30000000")
     assert time.monotonic() - began < 5
 
 
-TESTS = [("/program/growth/every step has one digest for any number of threads", equal_steps),
+def one_bound(folder):
+    """An option takes as many steps as the attribute."""
+    said = tap.run("build", PARTS, "--steps", 100001, status=2).stderr
+    assert "100000" in said, said
+    tap.run("check", PARTS, "--set", "growth.steps=100001", status=1)
+
+
+TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
+         ("/program/growth/every step has one digest for any number of threads", equal_steps),
          ("/program/growth/a run resumed at any step ends as one that was not broken off",
           resumed_at_every_step),
          ("/program/growth/a run that is killed loses a step at most", killed),
