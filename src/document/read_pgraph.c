@@ -1,6 +1,8 @@
 /// `<pgraph>`: components by their element's name, and the links between them.
 #include "document/reader.h"
 
+#include "material/mesh_file.h"
+
 #include <string.h>
 
 typedef struct GraphReader {
@@ -73,15 +75,27 @@ static bool is_file(const FrParam *row) {
            (strcmp(row->name, "file") == 0 || g_str_has_suffix(row->name, "_file"));
 }
 
-/// The files that a component names must be there.
+static void check_mesh_name(FrReader *reader, FrXmlRange place, const char *name) {
+    bool is_named = name != NULL && *name != '\0';
+    if (is_named && !fr_mesh_name_check(name, fr_xml_span(reader->tree, place), reader->diags)) {
+        fr_read_note(reader, FR_ERR_DOCUMENT);
+    }
+}
+
+/// The files that a component names must be there, and of triangles where it reads triangles.
 static void check_files(FrReader *reader, uint32_t node, const FrParamTable *table,
                         const void *params) {
     for (size_t i = 0; i < table->count; i++) {
         const FrParam *row = &table->rows[i];
         if (is_file(row)) {
             char *attribute = fr_param_attribute(row);
-            fr_read_check_file(reader, node, attribute,
-                               *(char *const *)(const void *)((const char *)params + row->offset));
+            const char *name = *(char *const *)(const void *)((const char *)params + row->offset);
+            size_t errors = fr_diags_error_count(reader->diags);
+            fr_read_check_file(reader, node, attribute, name);
+            bool is_there = fr_diags_error_count(reader->diags) == errors;
+            if (is_there && strcmp(row->name, "file") == 0) {
+                check_mesh_name(reader, fr_read_value_place(reader, node, attribute), name);
+            }
             g_free(attribute);
         }
     }

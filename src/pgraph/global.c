@@ -97,17 +97,17 @@ static bool make_lattice(FrLattice *lattice, const FrScopeParams *scope) {
     return true;
 }
 
+static FrStatus check_path(const char *path, const FrPrototype *prototype, FrDiags *diags) {
+    GArray *points = fr_path_points(path, prototype, diags);
+    FrStatus status = points != NULL ? FR_OK : FR_ERR_DOCUMENT;
+    g_clear_pointer(&points, g_array_unref);
+    return status;
+}
+
 FrStatus fr_check_global(const FrPrototype *prototype, FrDiags *diags) {
     if (prototype->kind == FR_COMPONENT_FORCE) {
         const FrForceParams *force = prototype->params;
-        GArray *points = NULL;
-        if (force->kind != FR_FORCE_TO_CURVE) {
-            return FR_OK;
-        }
-        points = fr_path_points(force->path, prototype, diags);
-        FrStatus status = points != NULL ? FR_OK : FR_ERR_DOCUMENT;
-        g_clear_pointer(&points, g_array_unref);
-        return status;
+        return force->kind == FR_FORCE_TO_CURVE ? check_path(force->path, prototype, diags) : FR_OK;
     }
     if (!fr_is_scope(prototype->kind)) {
         return FR_OK;
@@ -118,6 +118,10 @@ FrStatus fr_check_global(const FrPrototype *prototype, FrDiags *diags) {
                      "the box of '%s' is flat: box-from and box-to must differ in x, y and z",
                      prototype->id);
         return FR_ERR_DOCUMENT;
+    }
+    const FrFfdParams *ffd = prototype->params;
+    if (prototype->kind == FR_COMPONENT_FFD && ffd->preset == FR_PRESET_CURVE) {
+        return check_path(ffd->path, prototype, diags);
     }
     const FrHyperpatchParams *patch = prototype->params;
     return prototype->kind == FR_COMPONENT_HYPERPATCH
@@ -146,8 +150,13 @@ static void map_points(FrLattice *lattice, FrExpr *const map[3], uint32_t compon
 }
 
 // The functions that an FFD moves points by, as its own references.
-static void own_map(const FrFfdParams *ffd, FrExpr *map[3]) {
-    if (fr_preset_map(ffd, map)) {
+static void own_map(const FrPrototype *prototype, FrExpr *map[3]) {
+    const FrFfdParams *ffd = prototype->params;
+    GArray *path =
+        ffd->preset == FR_PRESET_CURVE ? fr_path_points(ffd->path, prototype, NULL) : NULL;
+    bool has_preset = fr_preset_map(ffd, path, map);
+    g_clear_pointer(&path, g_array_unref);
+    if (has_preset) {
         return;
     }
     FrExpr *const own[3] = {ffd->to_x, ffd->to_y, ffd->to_z};
@@ -174,7 +183,7 @@ static void prepare_scope(FrPrepared *made, const FrPrototype *prototype, uint32
         FR_ASSERT(status == FR_OK);
     } else {
         const FrFfdParams *ffd = prototype->params;
-        own_map(ffd, map);
+        own_map(prototype, map);
         if (ffd->form == FR_FFD_BY_LATTICE) {
             map_points(&deformation.lattice, map, component, evaluator);
         } else {

@@ -48,12 +48,13 @@ static void chain(FrNear *near, uint32_t index) {
     near->first[bucket] = index;
 }
 
-// Makes room for so many points, in cells a little narrower than these will be apart.
+// Makes room for so many points, in cells a little wider than these will be apart: then the nearest
+// one is mostly in a cell that touches the middle one.
 static void make_room(FrNear *near, uint32_t room) {
     near->room = room;
-    near->width = 0.6 * sqrt(fmax(near->area, 1e-30) / room);
+    near->width = 1.25 * sqrt(fmax(near->area, 1e-30) / room);
     uint32_t buckets = 8;
-    while (buckets < 4 * (uint64_t)room && buckets < 1u << 31) {
+    while (buckets < 2 * (uint64_t)room && buckets < 1u << 31) {
         buckets *= 2;
     }
     near->mask = buckets - 1;
@@ -111,25 +112,49 @@ static double nearest_in(const FrNear *near, const int64_t cell[3], const double
 // The cells from low to high that hold points at all, of those `ring` away from the middle one.
 typedef struct Reach {
     int64_t middle[3], low[3], high[3];
+    double inside[3]; ///< where the place is in the middle cell, 0 to 1 of its width
+    double enough;
 } Reach;
+
+// How far the place is from cell `at` along one axis, squared, a little less than exact.
+static double clear_of(const FrNear *near, const Reach *reach, int r, int64_t at) {
+    double off = (double)(at - reach->middle[r]) - reach->inside[r];
+    double out = near->width * (off > 0 ? off : off < -1 ? -1 - off : 0);
+    return (1 - 1e-6) * out * out;
+}
+
+// The cells of a row that are `ring` away, all of them if the row is; nearest before and after.
+static double nearest_in_row(const FrNear *near, const Reach *reach, int64_t cell[3], int64_t ring,
+                             bool is_edge, double clear, const double at[3], double nearest) {
+    int64_t to = MIN(reach->middle[0] + ring, reach->high[0]);
+    int64_t from = reach->middle[0] - ring;
+    from = is_edge ? MAX(from, reach->low[0]) : from;
+    for (cell[0] = from; cell[0] <= to; cell[0] += is_edge ? 1 : 2 * ring) {
+        if (cell[0] >= reach->low[0] && clear + clear_of(near, reach, 0, cell[0]) < nearest) {
+            nearest = nearest_in(near, cell, at, nearest);
+        }
+    }
+    return nearest;
+}
 
 static double nearest_in_ring(const FrNear *near, const Reach *reach, int64_t ring,
                               const double at[3], double nearest) {
     int64_t from[3], to[3], cell[3];
-    for (int r = 0; r < 3; r++) {
+    for (int r = 1; r < 3; r++) {
         from[r] = MAX(reach->middle[r] - ring, reach->low[r]);
         to[r] = MIN(reach->middle[r] + ring, reach->high[r]);
     }
     for (cell[2] = from[2]; cell[2] <= to[2]; cell[2]++) {
-        for (cell[1] = from[1]; cell[1] <= to[1]; cell[1]++) {
+        double layer = clear_of(near, reach, 2, cell[2]);
+        for (cell[1] = from[1]; cell[1] <= to[1] && layer < nearest; cell[1]++) {
+            double clear = layer + clear_of(near, reach, 1, cell[1]);
             bool is_edge = ring == 0 || llabs(cell[2] - reach->middle[2]) == ring ||
                            llabs(cell[1] - reach->middle[1]) == ring;
-            int64_t step = is_edge ? 1 : 2 * ring;
-            for (cell[0] = is_edge ? from[0] : reach->middle[0] - ring; cell[0] <= to[0];
-                 cell[0] += step) {
-                if (cell[0] >= from[0]) {
-                    nearest = nearest_in(near, cell, at, nearest);
-                }
+            if (clear < nearest) {
+                nearest = nearest_in_row(near, reach, cell, ring, is_edge, clear, at, nearest);
+            }
+            if (nearest <= reach->enough) {
+                return nearest;
             }
         }
     }
@@ -141,10 +166,11 @@ double fr_near_distance(const FrNear *near, const double at[3], double enough) {
     if (near->count == 0) {
         return nearest;
     }
-    Reach reach;
+    Reach reach = {.enough = enough};
     int64_t last = 0;
     for (int r = 0; r < 3; r++) {
         reach.middle[r] = cell_of(near, at[r]);
+        reach.inside[r] = at[r] / near->width - (double)reach.middle[r];
         reach.low[r] = cell_of(near, near->min[r]);
         reach.high[r] = cell_of(near, near->max[r]);
         last = MAX(last, llabs(reach.high[r] - reach.middle[r]));

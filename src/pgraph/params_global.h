@@ -28,8 +28,10 @@
     X(FORMULA, to_z, "z", 0, 0, "", "x y z amount", "the same along z")                            \
     X(NUMBER, amount, "1", -1000000, 1000000, "", "", "a number for the functions")                \
     X(CHOICE, preset, "none", 0, 0, "",                                                            \
-      "none bend twist taper bulge flare shear stretch wave spiral spherify ruffle",               \
-      "functions ready made, of that amount, instead of to-x, to-y, to-z")
+      "none bend twist taper bulge flare shear stretch wave spiral spherify ruffle curve",         \
+      "functions ready made, of that amount, instead of to-x, to-y, to-z")                         \
+    X(TEXT, path, "", 0, 0, "", "",                                                                \
+      "points x,y,z x,y,z for preset=curve: the line that its z axis comes to run along, in m")
 
 #define FR_HYPERPATCH_PARAMS(X)                                                                    \
     X(TEXT, points, "", 0, 0, "", "",                                                              \
@@ -117,7 +119,7 @@ enum { FR_FORCE_BEFORE = FR_BASIC_COUNT - 1, FR_FORCE_PARAMS(FR_FORCE_ID) FR_FOR
 
 enum { FR_MOVES_TRIANGLES, FR_MOVES_SKELETON };
 enum { FR_FFD_EXACT, FR_FFD_BY_LATTICE };
-enum { FR_PRESET_NONE };
+enum { FR_PRESET_NONE, FR_PRESET_CURVE = 12 };
 enum {
     FR_FORCE_ALONG_DIRECTION,
     FR_FORCE_TO_POINT,

@@ -49,9 +49,11 @@ static const char *const presets[][3] = {
     {"x + 0.05*amount*tall*noise(7*x/tall, 7*y/tall, 7*z/tall)", // ruffle
      "y + 0.05*amount*tall*noise(7*x/tall + 31, 7*y/tall, 7*z/tall)",
      "z + 0.05*amount*tall*noise(7*x/tall, 7*y/tall + 57, 7*z/tall)"},
+    {"mix(x, to0(x, y, z), amount)", "mix(y, to1(x, y, z), amount)", // curve
+     "mix(z, to2(x, y, z), amount)"},
 };
 
-static FrScope *scope_of(const FrFfdParams *ffd) {
+static FrScope *scope_of(const FrFfdParams *ffd, const GArray *path) {
     double from = (double)ffd->box_from.z, to = (double)ffd->box_to.z;
     FrScope *scope = fr_scope_new();
     fr_scope_add_value(scope, "low", fmin(from, to));
@@ -61,16 +63,19 @@ static FrScope *scope_of(const FrFfdParams *ffd) {
                                                 functions[k].body, (FrSpan){0}, NULL);
         FR_ASSERT(status == FR_OK);
     }
+    if (path != NULL) {
+        fr_preset_add_curve(scope, path);
+    }
     return scope;
 }
 
-bool fr_preset_map(const FrFfdParams *ffd, FrExpr *map[3]) {
+bool fr_preset_map(const FrFfdParams *ffd, const GArray *path, FrExpr *map[3]) {
     static const char *const names[] = {"x", "y", "z", "amount"};
     if (ffd->preset == FR_PRESET_NONE) {
         return false;
     }
     FR_ASSERT((size_t)ffd->preset < G_N_ELEMENTS(presets));
-    FrScope *scope = scope_of(ffd);
+    FrScope *scope = scope_of(ffd, path);
     for (int k = 0; k < 3; k++) {
         map[k] = fr_expr_compile_with(presets[ffd->preset][k], (FrSpan){0}, scope, names,
                                       G_N_ELEMENTS(names), NULL);

@@ -62,6 +62,7 @@ static const FrParamCondition conditions[] = {
     {"variation", "choice", "rule", "choice"},
     // what acts on all that follows
     {"ffd", "to_x to_y to_z", "preset", "none"},
+    {"ffd", "path", "preset", "curve"},
     {"ffd", "degree_x degree_y degree_z", "form", "lattice"},
     {"world", "light_x light_y light_z", "sun", "no"},
     {"world", "sun_azimuth sun_elevation", "sun", "yes"},

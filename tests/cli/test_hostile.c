@@ -19,6 +19,7 @@ static const Hostile hostile[] = {
     {"nan", 1, "*nan.frond:1:*error:*"},
     {"infinite", 1, "*infinite.frond:1:*error:*"},
     {"picture", 1, "*picture.frond:1:*error:*[missing-file]*"},
+    {"mesh-name", 1, "*mesh-name.frond:1:96: error:*[unknown-format]*"},
     {"bad-picture", 1, "*bad-picture.frond:1:*error:*"},
     {"latin1", 1, "*latin1.frond:1:*error:*[encoding]*"},
     {"utf16", 1, "*utf16.frond:1:1: error:*[encoding]*"},
@@ -70,6 +71,8 @@ static void put_graphs(void) {
     put_graph("deep-cycle", "<horn id='a' depth='100000'/><phiball id='b' number='10'/>"
                             "<link from='r' to='a'/><link from='a' to='b'/>"
                             "<link from='b' to='a'/>");
+    put_graph("mesh-name", "<simple id='s' primitive='mesh' file='mesh-name.frond'/>"
+                           "<link from='r' to='s'/>");
     put_graph("nan", "<horn id='a' length='nan'/><link from='r' to='a'/>");
     put_graph("infinite", "<horn id='a' length='1e400'/><link from='r' to='a'/>");
     put_graph("duplicate", "<horn id='a'/><horn id='a'/><link from='r' to='a'/>");

@@ -443,6 +443,12 @@ static void presets(void) {
     preset("wave", 0, 0, 0.5, (const double[]){0, 0.2, 0.5});
     preset("spiral", 0, 0, 1, (const double[]){-0.4, 0, 1});
     preset("spherify", 0.1, 0, 1, (const double[]){1, 0, 1});
+    // A line that leads aside: by arc length, and straight on beyond its end.
+    preset("curve;path=0,0,0 0,0,1 0,0,2", 0.1, 0.2, 1.5, (const double[]){0.1, 0.2, 1.5});
+    preset("curve;path=0,0,0 1,0,0 4,0,0", 0, 0, 3, (const double[]){3, 0, 0});
+    preset("curve;path=0,0,0 1,0,0 4,0,0", 0, 0, 6, (const double[]){6, 0, 0});
+    preset("curve;path=0,0,0 1,0,0 4,0,0", 0.1, 0.2, 2, (const double[]){2, 0.2, -0.1});
+    preset("curve;path=0,0,0 1,0,0 4,0,0;amount=.5", 0, 0, 2, (const double[]){1, 0, 1});
     // Ruffled by noise, which is nothing at whole numbers of sevenths of the height.
     preset("ruffle;amount=0", 0.1, 0.3, 1, (const double[]){0.1, 0.3, 1});
 }
