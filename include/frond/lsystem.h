@@ -125,9 +125,10 @@ typedef struct FrLsettings {
     size_t colour_count;        ///< in other colours they are of `organs`
     FrMaterial *const *palette; ///< 256 materials by colour index, some NULL, for what those do not
                                 ///< say and for axes; NULL: none
-    bool inherits;     ///< where those are NULL there is none: that of what bears the plant
-    const char *sites; ///< symbols that place something: organs without a shape, scaled by the
-                       ///< first parameter, whose component is called like the symbol; NULL: none
+    bool inherits;      ///< where those are NULL there is none: that of what bears the plant
+    const char *sites;  ///< symbols that place something: organs without a shape, scaled by the
+                        ///< first parameter, whose component is called like the symbol; NULL: none
+    bool keeps_origins; ///< fr_lderivation_origin() will be asked; 8 bytes an internode
 } FrLsettings;
 
 FR_API FrLsettings fr_lsettings_default(void);
@@ -188,6 +189,17 @@ FR_API FR_MUST_USE FrStatus fr_lderivation_plant(FrLderivation *derivation,
 /// Draws the string as it is: open symbols stay open until fr_lderivation_ask().
 FR_API FR_MUST_USE FrStatus fr_lderivation_draw(FrLderivation *derivation, const FrContext *context,
                                                 FrPlant **plant, FrLdrawn *drawn);
+
+/// Where an internode comes from.
+typedef struct FrLorigin {
+    uint64_t module;        ///< index in the string of what drew it, itself or by homomorphism
+    const char *production; ///< in whose successor the symbol stood, borrowed; NULL: the axiom
+    FrSpan span;            ///< of the production or the axiom
+} FrLorigin;
+
+/// Where a node of the plant drawn last comes from; false where that is not kept (FrLsettings).
+FR_API bool fr_lderivation_origin(const FrLderivation *derivation, uint32_t node,
+                                  FrLorigin *origin);
 
 /// Reads a view file (.v) and what it names, relative to `folder`: functions, contours, surfaces.
 /// Commands that only concern pictures are read over; unknown ones are warnings.

@@ -53,6 +53,7 @@ FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *co
     builder->palette = settings->palette;
     builder->unit = settings->unit;
     builder->sites = settings->sites;
+    builder->origins = settings->keeps_origins ? g_array_new(FALSE, FALSE, sizeof(uint64_t)) : NULL;
     for (const char *site = builder->sites; site != NULL && *site != '\0'; site++) {
         fr_plant_add_component(builder->plant, (char[]){*site, '\0'}, (FrSpan){0});
     }
@@ -64,6 +65,7 @@ void fr_lbuilder_free(FrLbuilder *builder) {
         fr_plant_free(builder->plant);
         g_free(builder->colours);
         g_free(builder->components);
+        g_clear_pointer(&builder->origins, g_array_unref);
         g_free(builder);
     }
 }

@@ -29,6 +29,7 @@ struct FrLbuilder {
     FrMaterial *const *palette; ///< by colour index, NULL
     double unit;                ///< metres of one unit of the file
     const char *sites;          ///< symbols that place something, NULL
+    GArray *origins;            ///< as FrLderivation.origins
 };
 
 FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *context);

@@ -175,6 +175,19 @@ const FrLproduction *fr_lderive_maker(const FrLderivation *derivation, uint32_t 
                : &g_array_index(productions, FrLproduction, mark - 1);
 }
 
+bool fr_lderivation_origin(const FrLderivation *derivation, uint32_t node, FrLorigin *origin) {
+    if (derivation->origins == NULL || node >= derivation->origins->len) {
+        return false;
+    }
+    uint64_t kept = g_array_index(derivation->origins, uint64_t, node);
+    const FrLproduction *production = fr_lderive_maker(derivation, kept & 0xFFFF);
+    const FrLunit *unit = g_ptr_array_index(derivation->system->units, 0);
+    *origin = (FrLorigin){.module = kept >> 16,
+                          .production = production == NULL ? NULL : production->name,
+                          .span = production == NULL ? unit->axiom_span : production->span};
+    return true;
+}
+
 uint32_t fr_lderive_depth(FrLderivation *derivation, const FrLsection *section,
                           const FrContext *context) {
     if (section->depth == FR_NONE) {
@@ -344,6 +357,7 @@ void fr_lderivation_free(FrLderivation *derivation) {
     g_array_unref(derivation->choices);
     g_ptr_array_unref(derivation->files);
     g_hash_table_unref(derivation->told);
+    g_clear_pointer(&derivation->origins, g_array_unref);
     fr_lstring_free(derivation->string);
     fr_lstring_free(derivation->other);
     fr_lview_free(derivation->default_view);

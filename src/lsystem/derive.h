@@ -41,6 +41,8 @@ struct FrLderivation {
     bool is_parallel; ///< nothing that a step does depends on the order of modules
     bool is_answered; ///< the open symbols of this string have been answered
     GHashTable *told; ///< places of faults that were reported
+    GArray *origins;  ///< uint64_t: by node of the plant drawn last, 16 bits of mark below the
+                      ///< module's index; NULL: not kept
 };
 
 FrLstring *fr_lstring_new(void);

@@ -201,6 +201,10 @@ uint32_t fr_lbuilder_begin(FrLbuilder *builder, FrLstand *stand, const FrLsegmen
     for (int k = 0; k < 6; k++) {
         builder->waiting[k][node - builder->framed] = axes[k];
     }
+    if (builder->origins != NULL) {
+        uint64_t origin = segment->module << 16 | segment->maker;
+        g_array_append_val(builder->origins, origin);
+    }
     *stand = node | FR_LSTAND_TIP;
     return node;
 }

@@ -365,6 +365,8 @@ FrStatus fr_lderivation_draw(FrLderivation *derivation, const FrContext *context
         *drawn = builder->drawn;
     }
     if (status == FR_OK) {
+        g_clear_pointer(&derivation->origins, g_array_unref);
+        derivation->origins = g_steal_pointer(&builder->origins);
         *plant = fr_lbuilder_end(builder);
     }
     fr_lturtle_clear(&turtle);

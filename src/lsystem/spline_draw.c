@@ -222,6 +222,7 @@ static void add_strip(FrLturtle *turtle, FrLtube *spline, const FrLpoint *from,
                           .heading = frame.heading,
                           .left = frame.left,
                           .length = sqrt(square),
+                          .module = builder->module,
                           .maker = builder->maker,
                           .colour = turtle->pose.colour};
     if (builder->view->style != FR_LSTYLE_CYLINDER) {

@@ -53,6 +53,51 @@ static void replaced(void) {
     end(&d);
 }
 
+static void check_origin(const Derived *d, uint32_t node, uint64_t module, const char *production) {
+    FrLorigin origin;
+    g_assert_true(fr_lderivation_origin(d->derivation, node, &origin));
+    g_assert_cmpuint(origin.module, ==, module);
+    g_assert_cmpstr(origin.production, ==, production);
+}
+
+// F F F[+F]F, of which all but the branch are one axis.
+static void internodes(void) {
+    Derived d = begin("w : FA\np1 : A -> FB\np2 : B -> F[+F]F\n", 1);
+    FrLsettings settings = fr_lsettings_default();
+    FrLorigin origin;
+    g_assert_false(fr_lderivation_origin(d.derivation, 0, &origin));
+    settings.keeps_origins = true;
+    fr_lderivation_free(d.derivation);
+    g_assert_cmpint(fr_lderivation_new(d.system, &settings, &d.context, &d.derivation), ==, FR_OK);
+    FrPlant *plant = drawn(&d, 2);
+    g_assert_cmpuint(plant->axes.count, ==, 2);
+    check_origin(&d, 0, 0, NULL);
+    check_origin(&d, 1, 1, "p1");
+    check_origin(&d, 2, 2, "p2");
+    check_origin(&d, 3, 5, "p2");
+    check_origin(&d, 4, 7, "p2");
+    g_assert_false(fr_lderivation_origin(d.derivation, 5, &origin));
+    fr_plant_free(plant);
+    end(&d);
+}
+
+// What the turtle does not write is as in any plant.
+static void fresh(void) {
+    Derived d = begin("w : F[+F]F\n", 1);
+    FrPlant *plant = drawn(&d, 0);
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        g_assert_cmpfloat(plant->nodes.flatness[i], ==, 1);
+        g_assert_cmpuint(plant->nodes.flags[i], ==, 0);
+    }
+    g_assert_cmpuint(plant->axes.order[1], ==, 1);
+    g_assert_cmpuint(plant->axes.flags[1], ==, 0);
+    g_assert_cmpuint(plant->axes.finish[1], ==, FR_NONE);
+    g_assert_cmpuint(plant->axes.deformer[1], ==, FR_NONE);
+    g_assert_cmpuint(plant->axes.profile[1], ==, FR_NONE);
+    fr_plant_free(plant);
+    end(&d);
+}
+
 // Two productions of one predecessor are told apart.
 static void numbered(void) {
     Derived d = begin("Lsystem: 1\naxiom: A(0)\nA(x) : x < 1 --> FA(x+1)\n"
@@ -85,6 +130,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/lsystem/made/what nothing rewrites keeps its production", kept);
     g_test_add_func("/lsystem/made/homomorphism makes what it replaces", replaced);
     g_test_add_func("/lsystem/made/productions of one predecessor are told apart", numbered);
+    g_test_add_func("/lsystem/made/every internode knows its module and production", internodes);
+    g_test_add_func("/lsystem/made/rows hold what those of other engines hold", fresh);
     g_test_add_func("/lsystem/made/threads make the same", parallel);
     return g_test_run();
 }
