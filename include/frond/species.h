@@ -19,7 +19,7 @@
       "mcclure open",                                                                              \
       "architecture after Hallé and Oldeman; open: one order, given by the attributes below")      \
     /* elongation */                                                                               \
-    X(REAL, step, "0.3", 0.001, 20, "m", "", "length of an internode in even light")               \
+    X(REAL, step, "0.25", 0.001, 20, "m", "", "length of an internode in even light")              \
     X(REAL, step_ratio, "0.9", 0.05, 2, "", "", "times the length for each order")                 \
     X(REAL, length_noise, "0.1", 0, 1, "", "", "deviation of lengths, in lengths")                 \
     X(INTEGER, start, "0", 0, 100000, "", "", "steps before its seeds sprout")                     \
@@ -35,7 +35,7 @@
     X(CHOICE, fate, "auxin", 0, 0, "", "auxin flux priority colonize",                             \
       "what lets buds grow: distance from a growing apex; vigour shared out at forks "             \
       "(Borchert and Honda) or by rank; or attraction particles alone")                            \
-    X(REAL, auxin_reach, "3", 0, 1000, "", "",                                                     \
+    X(REAL, auxin_reach, "2", 0, 1000, "", "",                                                     \
       "internodes below a growing apex that it keeps "                                             \
       "asleep")                                                                                    \
     X(REAL, auxin, "0", 0, 100, "", "",                                                            \
@@ -90,8 +90,8 @@
     X(CHOICE, particle_rule, "space", 0, 0, "", "space bud",                                       \
       "what a reached particle takes along: nothing, or the bud that reached it")                  \
     X(CHOICE, particle_mean, "all", 0, 0, "", "all nearest", "which particles a bud turns to")     \
-    X(REAL, influence, "2.4", 0.001, 100000, "m", "", "from how far they attract")                 \
-    X(REAL, kill, "0.6", 0, 100000, "m", "", "how near a particle is reached")                     \
+    X(REAL, influence, "2", 0.001, 100000, "m", "", "from how far they attract")                   \
+    X(REAL, kill, "0.5", 0, 100000, "m", "", "how near a particle is reached")                     \
     /* space */                                                                                    \
     X(POINTS, envelope, "", 0, 1000000, "m", "",                                                   \
       "radius,height … of the outline that it grows within; empty: unbounded")                     \
@@ -109,11 +109,11 @@
     X(SWITCH, smooth, "yes", 0, 1, "", "", "axes are drawn as splines through their nodes")        \
     X(TEXT, bark, "", 0, 0, "", "", "id of the material of wood")                                  \
     /* leaves */                                                                                   \
-    X(INTEGER, leaves, "1", 0, 64, "", "", "at each leafy node")                                   \
-    X(INTEGER, leaf_life, "3", 1, 10000, "", "", "steps that a node stays leafy")                  \
+    X(INTEGER, leaves, "4", 0, 64, "", "", "at each leafy node")                                   \
+    X(INTEGER, leaf_life, "5", 1, 10000, "", "", "steps that a node stays leafy")                  \
     X(REAL, leaf_light, "0.1", 0, 1, "", "", "nodes in less light have none")                      \
-    X(REAL, leaf_length, "0.12", 0.0001, 100, "m", "", "of a blade")                               \
-    X(REAL, leaf_width, "0.06", 0.0001, 100, "m", "", "of a blade")                                \
+    X(REAL, leaf_length, "0.17", 0.0001, 100, "m", "", "of a blade")                               \
+    X(REAL, leaf_width, "0.1", 0.0001, 100, "m", "", "of a blade")                                 \
     X(REAL, leaf_angle, "50", 0, 180, "deg", "", "between a blade and its axis")                   \
     X(CHOICE, leaf_facing, "natural", 0, 0, "", "natural horizontal lit",                          \
       "blades turn as they grow, lie level, or face the light")                                    \

@@ -507,6 +507,9 @@ static void test_level_leaves(void) {
 static void test_particles(void) {
     World world;
     plain(&world);
+    world_set(&world, "step", "0.3");
+    world_set(&world, "influence", "2.4");
+    world_set(&world, "kill", "0.6");
     world_set(&world, "laterals", "0");
     world_set(&world, "attraction", "2");
     world_set(&world, "gravitropism", "0");
@@ -535,6 +538,9 @@ static void test_particle_and_bud(void) {
     plain(&world);
     world_set(&world, "laterals", "0");
     world_set(&world, "particle-rule", "bud");
+    world_set(&world, "step", "0.3");
+    world_set(&world, "influence", "2.4");
+    world_set(&world, "kill", "0.6");
     world_sow_one(&world);
     FrParticle particle = {.at = {{0, 0, 1}}, .w = 1, .kill = -1};
     g_assert_cmpint(fr_growth_add_particles(world.growth, &particle, 1, &world.context), ==, FR_OK);
