@@ -1,7 +1,6 @@
 /// @file mesh_file.h
 /// Triangles read from files: `.obj`, `.stl`, `.gltf`, `.glb`, and rational surfaces of `.igs` and
-/// of
-/// `.obj` with free-form statements.
+/// of `.obj` with free-form statements.
 #pragma once
 
 #include "frond/context.h"
@@ -26,7 +25,8 @@ typedef struct FrMeshFile {
     uint32_t vertex_count, index_count;
     FrMeshFilePart *parts; ///< owned
     uint32_t part_count;
-    GArray *surfaces; ///< FrNurbsSurface, in the place of the triangles cut from them; owned; NULL
+    GArray *surfaces; ///< FrNurbsSurface, of which the triangles of the first part are cut; owned;
+                      ///< NULL
     vec3s min, max;   ///< of positions that triangles use
     bool is_closed;   ///< every edge has a triangle on both sides
     FrDigest digest;  ///< of all of it

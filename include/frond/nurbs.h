@@ -75,6 +75,18 @@ FR_API void fr_nurbs_range(const double *knots, uint32_t degree, uint32_t count,
 /// True if counts, knots, points and weights (> 0) are as they must be; for what was imported.
 FR_API bool fr_nurbs_surface_is_valid(const FrNurbsSurface *surface);
 
+/// Puts a range of the parameter within that of a spline. True if the spline must be cut to have it
+/// from end to end: it is longer, or its ends are not clamped.
+FR_API bool fr_nurbs_is_cut(const double *knots, uint32_t degree, uint32_t count, double range[2]);
+/// The clamped knots of the part of a valid spline within such a range, which is not empty; `cut`
+/// has room for count + 3 · (degree + 1). Answers the number of control points.
+FR_API uint32_t fr_nurbs_cut_knots(const double *knots, uint32_t degree, uint32_t count,
+                                   const double range[2], double *cut);
+/// The control points of that part; points are `stride` apart, those made `cut_stride`.
+FR_API void fr_nurbs_cut(const double *knots, uint32_t degree, uint32_t count,
+                         const double (*points)[4], size_t stride, const double *cut,
+                         uint32_t cut_count, double (*cut_points)[4], size_t cut_stride);
+
 /// A control point through a projective map of homogeneous coordinates, row by row.
 FR_API void fr_nurbs_project(const double map[4][4], const double point[4], double image[4]);
 

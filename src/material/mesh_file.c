@@ -79,6 +79,9 @@ static void drop_unsound(FrMeshFile *file) {
         } else {
             fr_material_unref(part.material);
         }
+        if (p == 0 && part.index_count == 0) {
+            g_clear_pointer(&file->surfaces, g_array_unref);
+        }
     }
     file->part_count = parts;
     file->index_count = kept;
@@ -222,21 +225,23 @@ static bool is_vertex_sound(const char *line, const char *end) {
 
 static bool check_numbers(const char *path, const char *name, FrSpan span, FrDiags *diags) {
     gchar *text;
-    if (!g_str_has_suffix(name, ".obj") || !g_file_get_contents(path, &text, NULL, NULL)) {
+    gsize size;
+    if (!g_str_has_suffix(name, ".obj") || !g_file_get_contents(path, &text, &size, NULL)) {
         return true; // reading it will tell
     }
     bool is_sound = true;
     unsigned number = 1;
-    for (const char *line = text; line != NULL && is_sound; number++) {
-        const char *end = strchr(line, '\n');
+    const char *end = text + size;
+    for (const char *line = text; line < end && is_sound; number++) {
+        const char *stop = line + fr_line_length(line, (size_t)(end - line));
         bool is_vertex = line[0] == 'v' && (line[1] == ' ' || line[1] == '\t');
-        if (is_vertex && !is_vertex_sound(line + 1, end != NULL ? end : text + strlen(text))) {
+        if (is_vertex && !is_vertex_sound(line + 1, stop)) {
             fr_diags_add(diags, FR_ERROR, "wrong-mesh", span,
                          "'%s' has a vertex in line %u whose place is not three numbers", name,
                          number);
             is_sound = false;
         }
-        line = end != NULL ? end + 1 : NULL;
+        line = stop + fr_line_end(stop, (size_t)(end - stop));
     }
     g_free(text);
     return is_sound;
@@ -265,7 +270,7 @@ FrMeshFile *fr_mesh_file_load(const char *folder, const char *name, FrSpan span,
         bool has_surfaces = *status == FR_OK && fr_nurbs_file_is(path);
         file = *status != FR_OK ? NULL
                : has_surfaces   ? fr_nurbs_file_import(path, name, span, context, status)
-                                : fr_mesh_file_import(path, name, span, context, status);
+                                : fr_mesh_file_import(path, name, NULL, span, context, status);
     }
     g_free(path);
     if (file == NULL) {

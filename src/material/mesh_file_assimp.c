@@ -17,8 +17,9 @@
 /// What one import may open: files beside or below the first, together no more than a limit.
 typedef struct Folder {
     char *path, *first;
-    uint64_t left; ///< bytes
-    char *missing; ///< what was looked for and is not there; NULL
+    const GBytes *text; ///< of the first, in the place of what is in the file; NULL
+    uint64_t left;      ///< bytes
+    char *missing;      ///< what was looked for and is not there; NULL
 } Folder;
 
 /// A file in memory.
@@ -84,7 +85,10 @@ static struct aiFile *folder_open(struct aiFileIO *io, const char *name, const c
                    (uint64_t)stat_of.st_size <= folder->left;
     gsize size = 0;
     char *data = NULL;
-    if (is_fine && g_file_get_contents(path, &data, &size, NULL) && size <= folder->left) {
+    if (is_fine && folder->text != NULL && strcmp(name, folder->first) == 0) {
+        const void *text = g_bytes_get_data((GBytes *)folder->text, &size);
+        data = g_memdup2(text, size);
+    } else if (is_fine && g_file_get_contents(path, &data, &size, NULL) && size <= folder->left) {
         folder->left -= size;
     } else {
         g_clear_pointer(&data, g_free);
@@ -274,9 +278,10 @@ static FrMeshFile *take_scene(const struct aiScene *scene, const char *path, con
     return file;
 }
 
-FrMeshFile *fr_mesh_file_import(const char *path, const char *name, FrSpan span,
+FrMeshFile *fr_mesh_file_import(const char *path, const char *name, const GBytes *text, FrSpan span,
                                 const FrContext *context, FrStatus *status) {
     Folder folder = {
+        .text = text,
         .path = g_path_get_dirname(path),
         .first = g_strdup(path),
         .left = context->limits.document_bytes,

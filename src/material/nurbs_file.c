@@ -2,6 +2,8 @@
 // knows triangles only.
 #include "material/nurbs_file.h"
 
+#include "material/mesh_file.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -25,9 +27,24 @@ bool fr_nurbs_file_is(const char *path) {
         return is_iges(path);
     }
     char *text = NULL;
-    bool has_surfaces = g_file_get_contents(path, &text, NULL, NULL) && fr_obj_has_surfaces(text);
+    gsize size = 0;
+    bool has_surfaces =
+        g_file_get_contents(path, &text, &size, NULL) && fr_obj_has_surfaces(text, size);
     g_free(text);
     return has_surfaces;
+}
+
+size_t fr_line_length(const char *text, size_t size) {
+    size_t length = 0;
+    while (length < size && text[length] != '\n' && text[length] != '\r') {
+        length++;
+    }
+    return length;
+}
+
+size_t fr_line_end(const char *text, size_t size) {
+    bool is_pair = size > 1 && text[0] == '\r' && text[1] == '\n';
+    return is_pair ? 2 : size > 0;
 }
 
 FrNurbsSurface fr_surface_new(uint32_t degree_u, uint32_t count_u, uint32_t degree_v,
@@ -47,22 +64,102 @@ static void surface_clear(void *data) {
     g_free((void *)surface->points);
 }
 
-void fr_surface_fail(FrSurfaceReader *reader, size_t line, const char *what) {
-    fr_diags_add(reader->context->diags, FR_ERROR, "bad-surfaces", reader->span,
-                 "'%.80s', line %zu: %s", reader->name, line, what);
+static void say(const FrSurfaceReader *reader, FrSeverity severity, size_t line, const char *what,
+                va_list arguments) {
+    char *text = g_strdup_vprintf(what, arguments);
+    fr_diags_add(reader->context->diags, severity, "bad-surfaces", reader->span,
+                 "'%.80s', line %zu: %s", reader->name, line, text);
+    g_free(text);
+}
+
+void fr_surface_fail(FrSurfaceReader *reader, size_t line, const char *what, ...) {
+    va_list arguments;
+    va_start(arguments, what);
+    say(reader, FR_ERROR, line, what, arguments);
+    va_end(arguments);
     reader->status = FR_ERR_DOCUMENT;
 }
 
-void fr_surface_take(FrSurfaceReader *reader, FrNurbsSurface surface, size_t line) {
-    if (reader->status == FR_OK && fr_nurbs_surface_is_valid(&surface)) {
+void fr_surface_warn(FrSurfaceReader *reader, size_t line, const char *what, ...) {
+    va_list arguments;
+    va_start(arguments, what);
+    say(reader, FR_WARNING, line, what, arguments);
+    va_end(arguments);
+}
+
+/// What is wrong with a surface that is not valid.
+static const char *fault_of(const FrNurbsSurface *s) {
+    const double *knots[2] = {s->knots_u, s->knots_v};
+    const uint32_t counts[2] = {s->count_u + s->degree_u + 1, s->count_v + s->degree_v + 1};
+    for (int way = 0; way < 2; way++) {
+        for (uint32_t i = 0; i < counts[way]; i++) {
+            if (!isfinite(knots[way][i]) || (i > 0 && knots[way][i] < knots[way][i - 1])) {
+                return "knots fall or are no numbers";
+            }
+        }
+    }
+    for (size_t i = 0; i < (size_t)s->count_u * s->count_v; i++) {
+        if (!(s->points[i][3] > 1e-12)) {
+            return "a weight is not above 0";
+        }
+    }
+    return "too many knots are equal, or numbers are too large";
+}
+
+/// Cuts a surface to a range along u, or along v.
+static FrNurbsSurface cut(const FrNurbsSurface *s, bool is_u, const double range[2]) {
+    uint32_t degree = is_u ? s->degree_u : s->degree_v, count = is_u ? s->count_u : s->count_v;
+    const double *knots = is_u ? s->knots_u : s->knots_v;
+    double *cut_knots = g_new(double, (size_t)count + 3 * ((size_t)degree + 1));
+    uint32_t made = fr_nurbs_cut_knots(knots, degree, count, range, cut_knots);
+    double *to[2], (*points)[4];
+    FrNurbsSurface part = fr_surface_new(s->degree_u, is_u ? made : s->count_u, s->degree_v,
+                                         is_u ? s->count_v : made, &to[0], &to[1], &points);
+    memcpy(to[is_u ? 0 : 1], cut_knots, ((size_t)made + degree + 1) * sizeof *cut_knots);
+    memcpy(to[is_u ? 1 : 0], is_u ? s->knots_v : s->knots_u,
+           (is_u ? (size_t)s->count_v + s->degree_v + 1 : (size_t)s->count_u + s->degree_u + 1) *
+               sizeof *cut_knots);
+    for (uint32_t line = 0; line < (is_u ? s->count_v : s->count_u); line++) {
+        size_t from = is_u ? (size_t)line * s->count_u : line;
+        size_t at = is_u ? (size_t)line * made : line, stride = is_u ? 1 : s->count_u;
+        fr_nurbs_cut(knots, degree, count, s->points + from, stride, cut_knots, made, points + at,
+                     stride);
+    }
+    g_free(cut_knots);
+    return part;
+}
+
+/// True if the surface, cut where it must be, has just these ranges.
+static bool cut_to(FrNurbsSurface *surface, double ranges[2][2]) {
+    for (int way = 0; way < 2; way++) {
+        const FrNurbsSurface *s = surface;
+        const double *knots = way == 0 ? s->knots_u : s->knots_v;
+        uint32_t degree = way == 0 ? s->degree_u : s->degree_v;
+        bool is_cut =
+            fr_nurbs_is_cut(knots, degree, way == 0 ? s->count_u : s->count_v, ranges[way]);
+        if (!(ranges[way][0] < ranges[way][1])) {
+            return false;
+        }
+        if (is_cut) {
+            FrNurbsSurface part = cut(surface, way == 0, ranges[way]);
+            surface_clear(surface);
+            *surface = part;
+        }
+    }
+    return true;
+}
+
+void fr_surface_take(FrSurfaceReader *reader, FrNurbsSurface surface, double ranges[2][2],
+                     size_t line) {
+    if (!fr_nurbs_surface_is_valid(&surface)) {
+        fr_surface_fail(reader, line, "%s", fault_of(&surface));
+    } else if (!cut_to(&surface, ranges)) {
+        fr_surface_fail(reader, line, "the range of a parameter is empty or outside the knots");
+    } else {
         g_array_append_val(reader->surfaces, surface);
         return;
     }
     surface_clear(&surface);
-    if (reader->status == FR_OK) {
-        fr_surface_fail(reader, line,
-                        "the knots fall, or points or weights are no numbers above 0");
-    }
 }
 
 // ---- triangles ---------------------------------------------------------------------------------
@@ -216,6 +313,52 @@ static FrMeshFile *to_file(FrSurfaceReader *reader) {
     return file;
 }
 
+/// Appends the triangles of a file, which is freed, to those of another.
+static void join(FrMeshFile *to, FrMeshFile *from) {
+    uint32_t vertices = to->vertex_count + from->vertex_count;
+    uint32_t indices = to->index_count + from->index_count;
+    to->positions = g_renew(vec3s, to->positions, vertices);
+    to->normals = g_renew(vec3s, to->normals, vertices);
+    to->uvs = g_realloc_n(to->uvs, vertices, sizeof *to->uvs);
+    to->indices = g_renew(uint32_t, to->indices, indices);
+    to->parts = g_renew(FrMeshFilePart, to->parts, to->part_count + from->part_count);
+    size_t at = to->vertex_count, count = from->vertex_count;
+    memcpy(to->positions + at, from->positions, count * sizeof *to->positions);
+    memcpy(to->normals + at, from->normals, count * sizeof *to->normals);
+    memcpy(to->uvs + at, from->uvs, count * sizeof *to->uvs);
+    for (uint32_t i = 0; i < from->index_count; i++) {
+        to->indices[to->index_count + i] = to->vertex_count + from->indices[i];
+    }
+    for (uint32_t p = 0; p < from->part_count; p++) {
+        FrMeshFilePart part = from->parts[p];
+        part.first_index += to->index_count;
+        to->parts[to->part_count++] = part;
+    }
+    from->part_count = 0; // whose materials have moved
+    to->vertex_count = vertices;
+    to->index_count = indices;
+    fr_mesh_file_unref(from);
+}
+
+/// Reads the polygons of an .obj that has surfaces, and appends them.
+static void add_faces(FrSurfaceReader *reader, FrMeshFile *file, const char *path, char *text,
+                      size_t size) {
+    if (!fr_obj_keep_faces(text, size)) {
+        return;
+    }
+    GBytes *bytes = g_bytes_new_static(text, size);
+    FrMeshFile *faces = fr_mesh_file_import(path, reader->name, bytes, reader->span,
+                                            reader->context, &reader->status);
+    g_bytes_unref(bytes);
+    if (faces != NULL) {
+        uint64_t triangles = ((uint64_t)file->index_count + faces->index_count) / 3;
+        uint64_t most = MIN(reader->context->limits.triangles, INT32_MAX / 3);
+        reader->status = fr_limit_check(triangles, most, "triangles", reader->name, reader->span,
+                                        reader->context->diags);
+        join(file, faces);
+    }
+}
+
 FrMeshFile *fr_nurbs_file_import(const char *path, const char *name, FrSpan span,
                                  const FrContext *context, FrStatus *status) {
     FrSurfaceReader reader = {.name = name,
@@ -231,9 +374,8 @@ FrMeshFile *fr_nurbs_file_import(const char *path, const char *name, FrSpan span
     } else if (is_iges(path)) {
         fr_iges_surfaces(&reader, text, size);
     } else {
-        fr_obj_surfaces(&reader, text);
+        fr_obj_surfaces(&reader, text, size);
     }
-    g_free(text);
     if (reader.status == FR_OK && reader.surfaces->len == 0) {
         fr_diags_add(context->diags, FR_ERROR, "empty-mesh", span,
                      "'%.80s' has no rational B-spline surfaces", name);
@@ -244,6 +386,13 @@ FrMeshFile *fr_nurbs_file_import(const char *path, const char *name, FrSpan span
                      "'%.80s' trims surfaces; they are taken whole", name);
     }
     FrMeshFile *file = reader.status == FR_OK ? to_file(&reader) : NULL;
+    if (file != NULL && !is_iges(path)) {
+        add_faces(&reader, file, path, text, size);
+    }
+    if (reader.status != FR_OK) {
+        g_clear_pointer(&file, fr_mesh_file_unref);
+    }
+    g_free(text);
     g_array_unref(reader.surfaces);
     *status = reader.status;
     return file;

@@ -237,7 +237,7 @@ static void lay_file(GArray *forms, const FrPlant *plant, const FrShape *shape,
         return;
     }
     const FrMeshFile *file = g_ptr_array_index(plant->files, shape->detail);
-    if (file->surfaces != NULL) {
+    if (file->surfaces != NULL && shape->outline == 0) {
         lay_surfaces(forms, file->surfaces, size);
         return;
     }
@@ -303,7 +303,7 @@ GArray *fr_nurbs_shape(const FrPlant *plant, const FrShape *shape, const FrNurbs
 static uint64_t file_bytes(const FrPlant *plant, const FrShape *shape) {
     uint64_t bytes = 1024, triangles = file_triangles(plant, shape);
     const FrMeshFile *file = triangles > 0 ? g_ptr_array_index(plant->files, shape->detail) : NULL;
-    if (file == NULL || file->surfaces == NULL) {
+    if (file == NULL || file->surfaces == NULL || shape->outline != 0) {
         return fr_count_multiply(triangles, 512) + bytes;
     }
     for (uint32_t i = 0; i < file->surfaces->len; i++) {

@@ -60,6 +60,12 @@ static void take_row(FrMatrixReader *reader, const double *numbers, uint32_t cou
     for (uint32_t i = 0; i < k && i < count; i++) {
         reader->ramified->rows[k][i] = numbers[i] / sum;
     }
+    if (k == (uint32_t)reader->ramified->params.order + 1) {
+        FrSpan span = {(FrSource *)reader->source, (uint32_t)begin, (uint32_t)end};
+        fr_diags_add(reader->diags, FR_WARNING, "unused-rows", span,
+                     "rows from order %u on are not used, as 'order' is %d", k,
+                     (int)reader->ramified->params.order);
+    }
     reader->order++;
 }
 
@@ -68,7 +74,9 @@ static void read_row(FrMatrixReader *reader, const char *text, size_t begin, siz
     uint32_t count = 0;
     size_t first = begin;
     for (size_t at = begin; at < end;) {
-        at += strspn(text + at, " \t\r,;");
+        while (at < end && strchr(" \t\r,;", text[at]) != NULL) {
+            at++;
+        }
         if (at >= end || text[at] == '#') {
             break;
         }
@@ -100,7 +108,8 @@ FrStatus fr_matrix_read(FrRamified *ramified, const FrSource *source, const FrCo
     size_t length = strlen(copy);
     FrMatrixReader reader = {ramified, source, context->diags, 2, FR_OK};
     for (size_t begin = 0; begin < length && reader.status == FR_OK;) {
-        size_t end = begin + strcspn(copy + begin, "\n");
+        const char *next = memchr(copy + begin, '\n', length - begin);
+        size_t end = next != NULL ? (size_t)(next - copy) : length;
         read_row(&reader, copy, begin, end);
         begin = end + 1;
     }

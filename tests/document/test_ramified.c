@@ -46,9 +46,18 @@ static void settings(void) {
     forget(&parsed);
 }
 
+static void spare_rows(void) {
+    Parsed parsed = parse(HOLD(" by='matrix' order='2'", "\n0.5 0.5\n0 0.5 0.5\n0 0 0.5 0.5"));
+    g_assert_cmpint(parsed.status, ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(parsed.diags), ==, 1);
+    g_assert_cmpstr(fr_diags_get(parsed.diags, 0)->code, ==, "unused-rows");
+    forget(&parsed);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/document/ramified/errors are where they were written", places);
+    g_test_add_func("/document/ramified/rows that are not used are told", spare_rows);
     g_test_add_func("/document/ramified/settings reach the plant", settings);
     return g_test_run();
 }

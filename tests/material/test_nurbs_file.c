@@ -5,7 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-static FrMeshFile *load(const char *name, const char *text, gssize size, const char *wanted) {
+/// Loads a file of that text. `wanted` is the code of the error it has, NULL if it has none; `said`
+/// is a pattern of the first diagnostic, NULL if there is none.
+static FrMeshFile *load_told(const char *name, const char *text, gssize size, const char *wanted,
+                             const char *said) {
     char *folder = g_dir_make_tmp("frond-XXXXXX", NULL),
          *path = g_build_filename(folder, name, NULL);
     g_assert_true(g_file_set_contents(path, text, size, NULL));
@@ -22,12 +25,20 @@ static FrMeshFile *load(const char *name, const char *text, gssize size, const c
         g_assert_cmpuint(fr_diags_count(context.diags), >, 0);
         g_assert_cmpstr(fr_diags_get(context.diags, 0)->code, ==, wanted);
     }
+    g_assert_cmpuint(fr_diags_count(context.diags), ==, said != NULL);
+    if (said != NULL && !g_pattern_match_simple(said, fr_diags_get(context.diags, 0)->text)) {
+        g_error("'%s' is not like '%s'", fr_diags_get(context.diags, 0)->text, said);
+    }
     fr_diags_free(context.diags);
     g_unlink(path);
     g_rmdir(folder);
     g_free(path);
     g_free(folder);
     return file;
+}
+
+static FrMeshFile *load(const char *name, const char *text, gssize size, const char *wanted) {
+    return load_told(name, text, size, wanted, wanted != NULL ? "*" : NULL);
 }
 
 // A quarter of a cylinder of radius 2 from y = 0 to 3 (up), its weight √½ at the corner.
@@ -50,6 +61,81 @@ static void obj(void) {
     g_assert_cmpfloat_with_epsilon((double)file->max.z, 3, 1e-6); // z is up
     g_assert_cmpuint(file->index_count, >=, 3 * 2 * 4);
     fr_mesh_file_unref(file);
+}
+
+/// The range of the parameters is what the surface is cut to: from 0.5 on it is the upper part of
+/// the arc (its middle is at 45 degrees), and half as high.
+static void obj_range(void) {
+    FrMeshFile *file = load("q.obj", QUARTER "surf 0.5 1 0 0.5 1 2 3 4 5 6\n" ENDED, -1, NULL);
+    const FrNurbsSurface *s = &g_array_index(file->surfaces, FrNurbsSurface, 0);
+    g_assert_cmpfloat_with_epsilon(s->points[0][0], sqrt(2), 1e-12);
+    g_assert_cmpfloat_with_epsilon(s->points[0][1], sqrt(2), 1e-12);
+    g_assert_cmpfloat_with_epsilon((double)file->max.x, sqrt(2), 1e-6);
+    g_assert_cmpfloat_with_epsilon((double)file->max.z, 1.5, 1e-6);
+    for (uint32_t i = 0; i < file->vertex_count; i++) {
+        vec3s at = file->positions[i];
+        g_assert_cmpfloat_with_epsilon(hypot((double)at.x, (double)at.y), 2, 1e-6);
+    }
+    fr_mesh_file_unref(file);
+    file = load("q.obj", QUARTER "surf -1 3 0 1e9 1 2 3 4 5 6\n" ENDED, -1, NULL);
+    g_assert_cmpfloat_with_epsilon((double)file->max.z, 3, 1e-6);
+    fr_mesh_file_unref(file);
+    static const char *const empty[] = {"surf 1 0 0 1", "surf 0.5 0.5 0 1", "surf 0 1 2 3",
+                                        "surf 0 1 nan 1"};
+    for (size_t i = 0; i < G_N_ELEMENTS(empty); i++) {
+        char *text = g_strdup_printf(QUARTER "%s 1 2 3 4 5 6\n" ENDED, empty[i]);
+        load_told("q.obj", text, -1, "bad-surfaces", "'q.obj', line 9: the range of*");
+        g_free(text);
+    }
+}
+
+#define FACES "usemtl wood\nf 1/1 2/2 3\nf 4 5 \\\n6\n"
+
+/// Polygons beside surfaces are kept, as parts of their own.
+static void obj_faces(void) {
+    FrMeshFile *file = load(
+        "q.obj", "vt 0 0\nvt 1 0\n" QUARTER FACES "surf 0 1 0 1 1 2 3 4 5 6\n" ENDED, -1, NULL);
+    g_assert_cmpuint(file->surfaces->len, ==, 1);
+    g_assert_cmpuint(file->part_count, ==, 2);
+    g_assert_cmpuint(file->parts[0].index_count, >=, 3 * 2 * 4);
+    g_assert_cmpuint(file->parts[1].index_count, ==, 3 * 2);
+    // The corner of the triangle is where the vertex is: weights are for surfaces.
+    bool has_corner = false;
+    for (uint32_t i = 0; i < file->parts[1].index_count; i++) {
+        vec3s at = file->positions[file->indices[file->parts[1].first_index + i]];
+        has_corner |= at.x == 2 && at.y == 2 && at.z == 3;
+    }
+    g_assert_true(has_corner);
+    fr_mesh_file_unref(file);
+}
+
+static void obj_cut_off(void) {
+    load_told("q.obj", QUARTER "surf 0 1 0 1 1 2 3 4 5 6\nparm u 0 0 0 1 1 1\nparm v 0 0 1 1\n", -1,
+              "bad-surfaces", "'q.obj', line 9: *no 'end'*");
+    load_told("q.obj", QUARTER "surf 0 1 0 1 1 2 3 4 5 6\nsurf 0 1 0 1 1 2 3 4 5 6\n" ENDED, -1,
+              "bad-surfaces", "'q.obj', line 9: *no 'end'*");
+    // The knots of one surface are not those of the next.
+    load_told("q.obj", QUARTER "surf 0 1 0 1 1 2 3 4 5 6\n" ENDED "surf 0 1 0 1 1 2 3 4 5 6\nend\n",
+              -1, "bad-surfaces", "'q.obj', line 13: 'parm u' has 0 knots*");
+}
+
+/// Replaces every end of a line.
+static char *with_ends(const char *text, const char *end) {
+    char **lines = g_strsplit(text, "\n", -1), *joined = g_strjoinv(end, lines);
+    g_strfreev(lines);
+    return joined;
+}
+
+static void line_ends(void) {
+    static const char *const ends[] = {"\r", "\r\n"};
+    for (size_t i = 0; i < G_N_ELEMENTS(ends); i++) {
+        char *text = with_ends(QUARTER FACES "surf 0 1 0 1 1 2 \\\n3 4 5 6\n" ENDED, ends[i]);
+        FrMeshFile *file = load("q.obj", text, -1, NULL);
+        g_assert_cmpuint(file->surfaces->len, ==, 1);
+        g_assert_cmpuint(file->parts[file->part_count - 1].index_count, ==, 3 * 2);
+        fr_mesh_file_unref(file);
+        g_free(text);
+    }
 }
 
 /// A file of a plane patch in inches, moved by a matrix, of lines of 80 columns.
@@ -93,6 +179,68 @@ static void iges(void) {
     g_free(text);
 }
 
+static char *replaced(char *text, const char *old, const char *new) {
+    g_assert_cmpuint(strlen(old), ==, strlen(new));
+    char *at = strstr(text, old);
+    g_assert_nonnull(at);
+    memcpy(at, new, strlen(new));
+    return text;
+}
+
+/// The patch is as wide as that along y.
+static void assert_wide(char *text, double width, const char *said) {
+    FrMeshFile *file = load_told("patch.igs", text, -1, NULL, said);
+    g_assert_cmpfloat_with_epsilon((double)file->max.y - (double)file->min.y, width, 1e-6 * width);
+    fr_mesh_file_unref(file);
+    g_free(text);
+}
+
+static void iges_units(void) {
+    assert_wide(iges_text("2", PATCH PLACES), 0.002, NULL);
+    assert_wide(iges_text("", PATCH PLACES), 2 * 0.0254, NULL);
+    assert_wide(iges_text("99", PATCH PLACES), 2, "*line 2: the unit with the flag 99 is unknown*");
+    assert_wide(iges_text("3", PATCH PLACES), 2, "*line 2: the unit with the flag 3 is unknown*");
+    assert_wide(replaced(iges_text("3", PATCH PLACES), "2HXX", "2HCM"), 0.02, NULL);
+    assert_wide(replaced(iges_text("6", PATCH PLACES), "1Hp,1.,6", "1Hp,.5,6"), 4, NULL);
+    assert_wide(replaced(iges_text("6", PATCH PLACES), "1Hp,1.,6", "1Hp,-1,6"), 2,
+                "*line 2: the scale of model space -1*");
+    char *text = iges_text("6", PATCH PLACES);
+    assert_wide(with_ends(text, "\r"), 2, NULL);
+    g_free(text);
+}
+
+static void iges_range(void) {
+    assert_wide(iges_text("6", PATCH "0.,0.,0.,2.,0.,0.,0.,1.,0.,2.,1.,0.,.5,1.,0.,1.;"), 1, NULL);
+    assert_wide(iges_text("6", PATCH "0.,0.,0.,2.,0.,0.,0.,1.,0.,2.,1.,0.;"), 2, NULL);
+}
+
+/// What an IGES file that is wrong is told.
+static void refuse_iges(char *text, const char *said) {
+    load_told("wrong.igs", text, -1, "bad-surfaces", said);
+    g_free(text);
+}
+
+static void iges_errors(void) {
+    refuse_iges(iges_text("6", "128,1,1,1,1,0,0,1,0,0,0.,0.,1.;"),
+                "*line 5: a surface of 2 times 2 points has 33 numbers, not 12");
+    refuse_iges(iges_text("6", "128,1,1,12,1,0,0,1,0,0,0.,0.,1.;"), "*degrees from 1 to 9, not 12");
+    refuse_iges(iges_text("6", "128,1,1,2,1,0,0,1,0,0,0.,0.,1.;"),
+                "*of degree 2 cannot have 2 control points");
+    refuse_iges(iges_text("6", "126,1,1,1,1,0,0,1,0,0,0.;"), "*not those of an entity 128");
+    refuse_iges(iges_text("6", "128,1;"), "*begins with 9 numbers, not 1");
+    refuse_iges(iges_text("6", PATCH "0.,0.,0.,2.,0.,0.,0.,1.,0.,2.,1.,0.,1.,0.,0.,1.;"),
+                "*the range of a parameter is empty*");
+    // The matrix moves itself; the surface has one that is none; the matrix is short.
+    char *matrix = "     124       1       0       0       0       0       0";
+    char *circle = "     124       1       0       0       0       0       1";
+    refuse_iges(replaced(iges_text("6", PATCH PLACES), matrix, circle), "*line 5: *in a circle");
+    char *own = "     128       2       0       0       0       0       1";
+    char *none = "     128       2       0       0       0       0       3";
+    refuse_iges(replaced(iges_text("6", PATCH PLACES), own, none), "*its matrix is no entity 124");
+    refuse_iges(replaced(iges_text("6", PATCH PLACES), "10.,1.,0.,0.,", "10.;1.,0.,0.,"),
+                "*line 3: a matrix (entity 124) has 12 numbers, not 4");
+}
+
 static void refused(void) {
     static const char *const objs[] = {
         QUARTER "surf 0 1 0 1 1 2 3 4 5\n" ENDED,
@@ -122,7 +270,7 @@ static void refused(void) {
 // Bytes of a sound file changed by a plain generator: nothing hangs or ends the program.
 static void mutated(void) {
     char *iges = iges_text("6", PATCH PLACES);
-    const char *texts[2] = {QUARTER "surf 0 1 0 1 1 2 3 4 5 6\n" ENDED, iges};
+    const char *texts[2] = {QUARTER FACES "surf .1 1 0 .9 1 2 3 4 5 6\n" ENDED, iges};
     static const char *const names[2] = {"m.nurbs.obj", "m.igs"};
     uint32_t state = 1;
     for (int n = 0; n < 600; n++) {
@@ -155,6 +303,14 @@ static void mutated(void) {
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/material/nurbs_file/free-form OBJ is read exactly", obj);
+    g_test_add_func("/material/nurbs_file/surfaces are cut to their range", obj_range);
+    g_test_add_func("/material/nurbs_file/faces beside surfaces are kept", obj_faces);
+    g_test_add_func("/material/nurbs_file/a file that is cut off is told with its line",
+                    obj_cut_off);
+    g_test_add_func("/material/nurbs_file/lines end in three ways", line_ends);
+    g_test_add_func("/material/nurbs_file/IGES has units and a scale", iges_units);
+    g_test_add_func("/material/nurbs_file/IGES surfaces are cut to their range", iges_range);
+    g_test_add_func("/material/nurbs_file/what is wrong with IGES is told", iges_errors);
     g_test_add_func("/material/nurbs_file/IGES is read with its matrices and units", iges);
     g_test_add_func("/material/nurbs_file/what is unsound is refused", refused);
     g_test_add_func("/material/nurbs_file/changed bytes do no harm", mutated);

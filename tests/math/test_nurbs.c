@@ -80,6 +80,53 @@ static void insertion(void) {
     }
 }
 
+/// A part of a curve is it there, from end to end, and begins and ends with its points.
+static void assert_part(const FrNurbsCurve *curve, double from, double to) {
+    double range[2] = {from, to};
+    double *knots = g_new(double, curve->count + 3 * (curve->degree + 1));
+    g_assert_true(fr_nurbs_is_cut(curve->knots, curve->degree, curve->count, range));
+    uint32_t count = fr_nurbs_cut_knots(curve->knots, curve->degree, curve->count, range, knots);
+    FrNurbsCurve part = {curve->degree, count, knots, g_malloc_n(count, sizeof *part.points)};
+    fr_nurbs_cut(curve->knots, curve->degree, curve->count, (const double(*)[4])curve->points, 1,
+                 knots, count, part.points, 1);
+    for (int i = 0; i <= 50; i++) {
+        double a[3], b[3], u = range[0] + (range[1] - range[0]) * i / 50.0;
+        fr_nurbs_curve_at(curve, u, a, NULL);
+        fr_nurbs_curve_at(&part, u, b, NULL);
+        for (int k = 0; k < 3; k++) {
+            g_assert_cmpfloat_with_epsilon(a[k], b[k], 1e-13);
+            bool is_end = i == 0 || i == 50;
+            double end = part.points[i == 0 ? 0 : count - 1][k];
+            g_assert_true(!is_end || fabs(end - a[k]) < 1e-13);
+        }
+    }
+    fr_nurbs_curve_clear(&part);
+}
+
+static void parts(void) {
+    for (size_t f = 0; f < G_N_ELEMENTS(forms); f++) {
+        FrNurbsCurve circle = fr_nurbs_circle(forms[f]);
+        assert_part(&circle, 0.1, 0.4);
+        assert_part(&circle, 0.25, 0.75);
+        assert_part(&circle, 0.5, 2);
+        assert_part(&circle, -3, 0.01);
+        double whole[2] = {-1, 2};
+        g_assert_false(fr_nurbs_is_cut(circle.knots, circle.degree, circle.count, whole));
+        g_assert_cmpfloat(whole[0], ==, 0);
+        g_assert_cmpfloat(whole[1], ==, 1);
+        fr_nurbs_curve_clear(&circle);
+    }
+    // A spline that is not clamped, and one with an inner knot as often as can be.
+    double uniform[] = {0, 1, 2, 3, 4, 5, 6, 7, 8}, broken[] = {0, 0, 0, 1, 1, 1, 2, 3, 3, 3};
+    double points[][4] = {{0, 0, 0, 1},   {1, 3, 0, 2}, {2, -1, 1, 1}, {4, 0, 2, 3},
+                          {5, 5, 5, 0.5}, {6, 1, 0, 1}, {7, 2, 0, 1}};
+    FrNurbsCurve loose = {3, 5, uniform, points}, torn = {2, 7, broken, points};
+    assert_part(&loose, 3, 5);
+    assert_part(&loose, 3.5, 4.25);
+    assert_part(&torn, 1, 2.5);
+    assert_part(&torn, 1.5, 2);
+}
+
 // The uniform cubic: at its knots the curve is (a + 4b + c) / 6.
 static void closed_polygon(void) {
     const double star[6][2] = {{2, 0}, {0.5, 0.8}, {-1, 1.7}, {-1, 0}, {-1, -1.7}, {0.5, -0.8}};
@@ -321,6 +368,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/math/nurbs/circles have their published speeds", speeds);
     g_test_add_func("/math/nurbs/basis functions are those of the book", basis);
     g_test_add_func("/math/nurbs/an inserted knot changes nothing", insertion);
+    g_test_add_func("/math/nurbs/a part of a spline is the spline there", parts);
     g_test_add_func("/math/nurbs/a closed polygon makes a smooth closed spline", closed_polygon);
     g_test_add_func("/math/nurbs/curves with merged knots stay the same", merging);
     g_test_add_func("/math/nurbs/slopes agree with differences", surface_slopes);
