@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-enum { STEPS_MOST = 6, TEETH_GONE = 2 };
+enum { TEETH_GONE = 2 };
 
 // Part of the edge at its base and tip without teeth.
 #define FIRST 0.06
@@ -46,20 +46,14 @@ void fr_outline_lobe(FrOutline *outline, const FrBlade *blade) {
 
 // ---- teeth -------------------------------------------------------------------------------------
 
-uint64_t fr_margin_vertices_most(const FrBlade *blade) {
-    bool has_teeth = blade->margin != FR_MARGIN_ENTIRE && blade->margin != FR_MARGIN_LOBED;
-    return has_teeth ? (uint64_t)blade->teeth * 4 * (STEPS_MOST + 1) : 0;
+bool fr_blade_has_teeth(const FrBlade *blade) {
+    return blade->margin != FR_MARGIN_ENTIRE && blade->margin != FR_MARGIN_LOBED &&
+           blade->teeth > 0;
 }
 
-// One side's edge: a polygon through the ends of the rows.
-typedef struct Edge {
-    const FrBladeForm *form;
-    const FrOutlineRow *rows;
-    uint32_t count;
-    double side;     // −1 left, 1 right
-    double *way;     // m, up to each row
-    double *corners; // 3 a row
-} Edge;
+uint64_t fr_margin_vertices_most(const FrBlade *blade) {
+    return fr_blade_has_teeth(blade) ? (uint64_t)blade->teeth * 4 * (FR_TOOTH_STEPS_MOST + 1) : 0;
+}
 
 // A point of the edge: which row is before it, and how far it is on to the next.
 typedef struct Foot {
@@ -67,17 +61,20 @@ typedef struct Foot {
     double part;
 } Foot;
 
-static double half_at(const Edge *edge, uint32_t row) {
+static double half_at(const FrEdge *edge, uint32_t row) {
     const FrOutlineRow *r = &edge->rows[row];
     return fmax(edge->side < 0.0 ? r->left : r->right, 1e-3) * edge->form->width;
 }
 
-static void edge_init(Edge *edge) {
-    for (uint32_t i = 0; i < edge->count; i++) {
-        const FrOutlineRow *row = &edge->rows[i];
+void fr_edge_init(FrEdge *edge, const FrBladeForm *form, const FrOutlineRow *rows, uint32_t count,
+                  double side) {
+    *edge =
+        (FrEdge){form, rows, count, side, g_new(double, count), g_new(double, 3 * (size_t)count)};
+    for (uint32_t i = 0; i < count; i++) {
+        const FrOutlineRow *row = &rows[i];
         double *at = &edge->corners[3 * (size_t)i], square = 0.0;
         double aside = row->left + row->right < 2e-3 ? 0.0 : half_at(edge, i);
-        fr_blade_point(edge->form, row->along, edge->side * aside, at);
+        fr_blade_point(form, row->along, side * aside, at);
         for (int k = 0; k < 3 && i > 0; k++) {
             square += (at[k] - at[k - 3]) * (at[k] - at[k - 3]);
         }
@@ -85,7 +82,12 @@ static void edge_init(Edge *edge) {
     }
 }
 
-static Foot foot_at(const Edge *edge, double way) {
+void fr_edge_clear(FrEdge *edge) {
+    g_free(edge->way);
+    g_free(edge->corners);
+}
+
+static Foot foot_at(const FrEdge *edge, double way) {
     uint32_t row = 0;
     while (row + 2 < edge->count && edge->way[row + 1] < way) {
         row++;
@@ -95,7 +97,7 @@ static Foot foot_at(const Edge *edge, double way) {
     return (Foot){row, fmin(fmax(part, 0.0), 1.0)};
 }
 
-static vec3s edge_point(const Edge *edge, Foot foot) {
+static vec3s edge_point(const FrEdge *edge, Foot foot) {
     const double *a = &edge->corners[3 * (size_t)foot.row];
     vec3s point;
     for (int k = 0; k < 3; k++) {
@@ -104,57 +106,65 @@ static vec3s edge_point(const Edge *edge, Foot foot) {
     return point;
 }
 
-// A step of a tooth: where along it, how far the upper point leans on, how high it is.
-typedef struct ToothStep {
-    double along, lean, height;
-} ToothStep;
-
-static uint32_t tooth_steps(const FrBlade *blade, const FrDetail *detail, ToothStep *steps) {
+uint32_t fr_tooth_steps(const FrBlade *blade, bool is_coarse,
+                        FrToothStep steps[FR_TOOTH_STEPS_MOST + 1]) {
     bool is_serrate = blade->margin == FR_MARGIN_SERRATE;
     double e = exponent_of(blade), peak = is_serrate ? 0.7 : 0.5, lean = is_serrate ? 0.35 : 0.0;
     if (blade->margin == FR_MARGIN_CRENATE) {
-        uint32_t count = detail->lod > 0 ? 4 : STEPS_MOST;
+        uint32_t count = is_coarse ? 4 : FR_TOOTH_STEPS_MOST;
         for (uint32_t i = 0; i <= count; i++) {
             double angle = G_PI * i / count;
-            steps[i] = (ToothStep){0.5 - 0.5 * cos(angle), 0.0, sin(angle)};
+            steps[i] = (FrToothStep){0.5 - 0.5 * cos(angle), 0.0, sin(angle)};
         }
         return count;
     }
-    bool is_straight = detail->lod > 0 || fabs(e - 1.0) < 0.2;
+    bool is_straight = is_coarse || fabs(e - 1.0) < 0.2;
     uint32_t each = is_straight ? 1 : 2;
     for (uint32_t i = 0; i <= 2 * each; i++) {
         double up = i <= each ? (double)i / each : 2.0 - (double)i / each;
         double height = pow(up, e);
         double along = i <= each ? peak * up : 1.0 - (1.0 - peak) * up;
-        steps[i] = (ToothStep){along, lean * height, height};
+        steps[i] = (FrToothStep){along, lean * height, height};
     }
     return 2 * each;
 }
 
-static void lay_tooth(FrShapeMesh *mesh, const Edge *edge, double from, double length, double high,
-                      const ToothStep *steps, uint32_t count) {
-    const FrBladeForm *form = edge->form;
+FrTooth fr_tooth_at(const FrBladeForm *form, uint32_t tooth, uint32_t teeth) {
+    // They shrink to both ends.
+    double place = (tooth + 0.5) / teeth, each = (LAST - FIRST) / teeth;
+    double size = fmin(1.0, 4.0 * fmin(place, 1.0 - place) + 0.25);
+    return (FrTooth){FIRST + tooth * each, each,
+                     (double)form->blade->tooth_depth * form->width * size};
+}
+
+FrToothCorner fr_tooth_corner(const FrEdge *edge, const FrTooth *tooth, const FrToothStep *step) {
+    double all = edge->way[edge->count - 1];
+    Foot foot = foot_at(edge, all * (tooth->from + tooth->length * step->along));
+    const FrOutlineRow *low = &edge->rows[foot.row], *next = low + 1;
+    FrToothCorner corner = {.along = low->along + foot.part * (next->along - low->along),
+                            .half = half_at(edge, foot.row),
+                            .foot = edge_point(edge, foot)};
+    corner.half += foot.part * (half_at(edge, foot.row + 1) - corner.half);
+    corner.normal = fr_blade_normal(edge->form, corner.along, edge->side * corner.half);
+    vec3s onward = glms_vec3_normalize(glms_vec3_sub(edge_point(edge, (Foot){foot.row, 1.0}),
+                                                     edge_point(edge, (Foot){foot.row, 0.0})));
+    vec3s out = glms_vec3_scale(glms_vec3_cross(onward, corner.normal), (float)edge->side);
+    corner.top = glms_vec3_muladds(out, (float)(tooth->height * step->height), corner.foot);
+    corner.top = glms_vec3_muladds(onward, (float)(all * tooth->length * step->lean), corner.top);
+    return corner;
+}
+
+static void lay_tooth(FrShapeMesh *mesh, const FrEdge *edge, const FrTooth *tooth,
+                      const FrToothStep *steps, uint32_t count) {
     uint32_t before[2] = {0, 0};
     for (uint32_t i = 0; i <= count; i++) {
-        Foot foot = foot_at(edge, from + length * steps[i].along);
-        const FrOutlineRow *low = &edge->rows[foot.row], *next = low + 1;
-        double along = low->along + foot.part * (next->along - low->along);
-        double half = half_at(edge, foot.row);
-        half += foot.part * (half_at(edge, foot.row + 1) - half);
-        vec3s normal = fr_blade_normal(form, along, edge->side * half);
-        vec3s at = edge_point(edge, foot);
-        vec3s onward = glms_vec3_sub(edge_point(edge, (Foot){foot.row, 1.0}),
-                                     edge_point(edge, (Foot){foot.row, 0.0}));
-        onward = glms_vec3_normalize(onward);
-        vec3s out = glms_vec3_scale(glms_vec3_cross(onward, normal), (float)edge->side);
-        float u = (float)(0.5 + edge->side * (1.0 - WITHIN) * half / form->width);
-        uint32_t foot_at_edge = fr_shape_vertex(mesh, at, normal, u, (float)(1.0 - along));
-        vec3s top = glms_vec3_muladds(out, (float)(high * steps[i].height), at);
-        top = glms_vec3_muladds(onward, (float)(length * steps[i].lean), top);
-        uint32_t above = steps[i].height > 1e-6
-                             ? fr_shape_vertex(mesh, top, normal, u, (float)(1.0 - along))
-                             : foot_at_edge;
-        uint32_t a = before[0], b = foot_at_edge, c = above, d = before[1];
+        FrToothCorner corner = fr_tooth_corner(edge, tooth, &steps[i]);
+        float v = (float)(1.0 - corner.along);
+        float u = (float)(0.5 + edge->side * (1.0 - WITHIN) * corner.half / edge->form->width);
+        uint32_t foot = fr_shape_vertex(mesh, corner.foot, corner.normal, u, v);
+        uint32_t above =
+            steps[i].height > 1e-6 ? fr_shape_vertex(mesh, corner.top, corner.normal, u, v) : foot;
+        uint32_t a = before[0], b = foot, c = above, d = before[1];
         if (i > 0 && edge->side > 0.0) {
             fr_shape_triangle(mesh, a, d, c);
             fr_shape_triangle(mesh, a, c, b);
@@ -162,7 +172,7 @@ static void lay_tooth(FrShapeMesh *mesh, const Edge *edge, double from, double l
             fr_shape_triangle(mesh, a, c, d);
             fr_shape_triangle(mesh, a, b, c);
         }
-        before[0] = foot_at_edge;
+        before[0] = foot;
         before[1] = above;
     }
 }
@@ -170,25 +180,19 @@ static void lay_tooth(FrShapeMesh *mesh, const Edge *edge, double from, double l
 void fr_margin_teeth(FrShapeMesh *mesh, const FrBladeForm *form, const FrOutlineRow *rows,
                      uint32_t count, const FrDetail *detail) {
     const FrBlade *blade = form->blade;
-    if (fr_margin_vertices_most(blade) == 0 || detail->lod >= TEETH_GONE || count < 2) {
+    if (!fr_blade_has_teeth(blade) || detail->lod >= TEETH_GONE || count < 2) {
         return;
     }
-    ToothStep steps[STEPS_MOST + 1];
-    uint32_t step_count = tooth_steps(blade, detail, steps);
+    FrToothStep steps[FR_TOOTH_STEPS_MOST + 1];
+    uint32_t step_count = fr_tooth_steps(blade, detail->lod > 0, steps);
     uint32_t teeth = fr_shape_segments(blade->teeth, 1, blade->teeth, detail);
     for (double side = -1.0; side < 2.0; side += 2.0) {
-        Edge edge = {
-            form, rows, count, side, g_new(double, count), g_new(double, 3 * (size_t)count)};
-        edge_init(&edge);
-        double all = edge.way[count - 1], each = (LAST - FIRST) * all / teeth;
-        for (uint32_t k = 0; k < teeth && all > 0.0; k++) {
-            // They shrink to both ends.
-            double place = (k + 0.5) / teeth,
-                   size = fmin(1.0, 4.0 * fmin(place, 1.0 - place) + 0.25);
-            double high = (double)blade->tooth_depth * form->width * size;
-            lay_tooth(mesh, &edge, FIRST * all + k * each, each, high, steps, step_count);
+        FrEdge edge;
+        fr_edge_init(&edge, form, rows, count, side);
+        for (uint32_t k = 0; k < teeth && edge.way[count - 1] > 0.0; k++) {
+            FrTooth tooth = fr_tooth_at(form, k, teeth);
+            lay_tooth(mesh, &edge, &tooth, steps, step_count);
         }
-        g_free(edge.way);
-        g_free(edge.corners);
+        fr_edge_clear(&edge);
     }
 }

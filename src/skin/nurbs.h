@@ -109,9 +109,10 @@ FrNurbsForm *fr_nurbs_form_add(GArray *forms, uint32_t kind, uint32_t degree_u, 
 /// The surfaces of a shape at scale 1 in its own frame, as a GArray of FrNurbsForm that clears its
 /// elements. Counted before: at most fr_nurbs_shape_bytes_most().
 GArray *fr_nurbs_shape(const FrPlant *plant, const FrShape *shape, const FrNurbsParams *params);
-uint64_t fr_nurbs_shape_bytes_most(const FrPlant *plant, const FrShape *shape);
-uint64_t fr_nurbs_leaf_bytes_most(void);
-/// Appends petiole and halves of a blade.
+uint64_t fr_nurbs_shape_bytes_most(const FrPlant *plant, const FrShape *shape,
+                                   const FrNurbsParams *params);
+uint64_t fr_nurbs_leaf_bytes_most(const FrBlade *blade, const FrNurbsParams *params);
+/// Appends petiole and halves of a blade, or those of a compound leaf.
 void fr_nurbs_leaf(GArray *forms, const FrPlant *plant, const FrBlade *blade,
                    const FrNurbsParams *params);
 

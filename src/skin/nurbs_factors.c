@@ -258,6 +258,18 @@ static double widest(const FrNurbsPiece *piece, const double (*points)[4]) {
     return most;
 }
 
+/// True for the tube of a petiole: a blade follows. Rachises of compound leaves stay as they are.
+static bool is_petiole(const FrNurbsPiece *pieces, uint32_t tube, uint32_t count,
+                       const FrBlade *blade) {
+    uint32_t next = tube + 1;
+    while (next < count &&
+           (pieces[next].kind == FR_NURBS_FOOT || pieces[next].kind == FR_NURBS_CAP)) {
+        next++;
+    }
+    bool has_petioles = blade->compound == FR_COMPOUND_SIMPLE || blade->leaflet_petiole > 0.0F;
+    return has_petioles && next < count && pieces[next].kind == FR_NURBS_RIGHT;
+}
+
 void fr_nurbs_blow_organ(const FrNurbsParams *params, const FrPlant *plant, uint32_t organ,
                          const FrNurbsPiece *pieces, uint32_t count, double (*points)[4]) {
     bool is_blade = false;
@@ -271,13 +283,16 @@ void fr_nurbs_blow_organ(const FrNurbsParams *params, const FrPlant *plant, uint
     versors rotation;
     fr_plant_organ_pose(plant, organ, &at, &rotation);
     vec3s force = force_at(params, at, 0.0, plant->organs.path[organ]);
+    const FrBlade *blade = &g_array_index(plant->shapes, FrShape, plant->organs.shape[organ]).blade;
     FrCarried end = {.turn = glms_quat_identity()};
     double half = 0.0;
     double(*own)[4] = points;
     for (uint32_t i = 0; i < count; i++) {
         size_t size = (size_t)pieces[i].surface.count_u * pieces[i].surface.count_v;
-        if (pieces[i].kind == FR_NURBS_TUBE) {
+        if (pieces[i].kind == FR_NURBS_TUBE && is_petiole(pieces, i, count, blade)) {
             end = bend_petiole(params, &pieces[i].surface, force, own);
+        } else if (pieces[i].kind == FR_NURBS_TUBE) {
+            end = (FrCarried){.turn = glms_quat_identity()};
         } else {
             bool is_carried = pieces[i].kind != FR_NURBS_FOOT;
             for (size_t k = 0; k < size && is_carried; k++) {

@@ -6,20 +6,26 @@
 // interpolation, The NURBS Book, section 9.2.5), and the halves share the midrib's control points.
 // With exact margins a half is the Coons patch of midrib, margin, base and tip; where blades begin
 // and end in points that is the linear blend.
-#include "skin/nurbs.h"
+//
+// A blade with teeth has straight pieces along u, with a corner at every corner of a tooth.
+#include "skin/nurbs_leaf.h"
 
-#include "skin/blade.h"
-#include "skin/outline.h"
+#include "skin/margin.h"
+#include "skin/shape.h"
 
 #include <string.h>
 
 enum { EVEN_ROWS = 16, LEAST_ROWS = 9, MOST_ROWS = 41, ACROSS_MOST = 4, PETIOLE_POINTS = 5 };
+enum { ROWS_A_LOBE = 8, ROWS_OF_ALL = MOST_ROWS + ROWS_A_LOBE * FR_LOBES_MOST, STALK_ROWS = 16 };
 
-uint64_t fr_nurbs_leaf_bytes_most(void) {
-    uint64_t patch =
-        (uint64_t)(FR_OUTLINE_FINE + 1) * ACROSS_MOST * 6 + FR_OUTLINE_FINE + ACROSS_MOST + 8;
-    uint64_t petiole = 9 * (PETIOLE_POINTS + 4) * 4 + 80;
-    return (2 * patch + petiole) * sizeof(double) + 5 * sizeof(FrNurbsForm);
+uint64_t fr_nurbs_leaf_bytes_most(const FrBlade *blade, const FrNurbsParams *params) {
+    uint64_t rows = params->margins == FR_MARGINS_EXACT ? FR_OUTLINE_FINE + 1 : ROWS_OF_ALL;
+    if (fr_blade_has_teeth(blade)) {
+        rows = 2 * rows + (uint64_t)blade->teeth * (FR_TOOTH_STEPS_MOST + 1);
+    }
+    uint64_t patch = rows * (ACROSS_MOST * 6 + 1) + 16, stalk = 9 * STALK_ROWS * 4 + 80;
+    uint64_t each = (2 * patch + 2 * stalk) * sizeof(double) + 8 * sizeof(FrNurbsForm);
+    return fr_count_multiply(each, fr_compound_leaflets(blade) + 1);
 }
 
 /// Closes the petiole before it: as a rim and its middle.
@@ -42,6 +48,26 @@ static void lay_cap(GArray *forms, const FrNurbsStation *end, bool is_tip) {
     }
 }
 
+void fr_nurbs_stalk(GArray *forms, FrNurbsPath *path, const FrNurbsParams *params) {
+    FrNurbsParams plain = *params;
+    plain.join = FR_JOIN_NEAR;
+    uint32_t rows = fr_nurbs_rows(path, &plain);
+    if (rows == 0) {
+        return;
+    }
+    FrNurbsCurve circle = fr_nurbs_circle((FrNurbsCircle)params->circle);
+    FrNurbsSection section = {circle, circle, true, true, false};
+    FrNurbsForm *tube =
+        fr_nurbs_form_add(forms, FR_NURBS_TUBE, circle.degree, circle.count, 3, rows);
+    memcpy(tube->knots_u, circle.knots, sizeof(double) * (circle.count + circle.degree + 1));
+    fr_nurbs_sweep(path, &section, NULL, &plain, tube->points, tube->knots_v);
+    if (params->thickness > 0.0) {
+        lay_cap(forms, &path->stations[0], false);
+        lay_cap(forms, &path->stations[path->count - 1], true);
+    }
+    fr_nurbs_curve_clear(&circle);
+}
+
 static void lay_petiole(GArray *forms, const FrBladeForm *form, const FrNurbsParams *params) {
     const FrBlade *blade = form->blade;
     if (!(blade->petiole_length > 0.0F && blade->petiole_radius > 0.0F)) {
@@ -55,22 +81,7 @@ static void lay_petiole(GArray *forms, const FrBladeForm *form, const FrNurbsPar
         fr_blade_petiole(form, (double)i / pieces, at);
         fr_nurbs_path_add(&path, at, radius, 1.0, FR_NONE);
     }
-    FrNurbsParams plain = *params;
-    plain.join = FR_JOIN_NEAR;
-    uint32_t rows = fr_nurbs_rows(&path, &plain);
-    if (rows > 0) {
-        FrNurbsCurve circle = fr_nurbs_circle((FrNurbsCircle)params->circle);
-        FrNurbsSection section = {circle, circle, true, true, false};
-        FrNurbsForm *tube =
-            fr_nurbs_form_add(forms, FR_NURBS_TUBE, circle.degree, circle.count, 3, rows);
-        memcpy(tube->knots_u, circle.knots, sizeof(double) * (circle.count + circle.degree + 1));
-        fr_nurbs_sweep(&path, &section, NULL, &plain, tube->points, tube->knots_v);
-        if (params->thickness > 0.0) {
-            lay_cap(forms, &path.stations[0], false);
-            lay_cap(forms, &path.stations[path.count - 1], true);
-        }
-        fr_nurbs_curve_clear(&circle);
-    }
+    fr_nurbs_stalk(forms, &path, params);
     fr_nurbs_path_clear(&path);
 }
 
@@ -96,35 +107,44 @@ static void set_parameters(const FrBladeForm *form, const FrOutlineRow *rows, ui
     }
 }
 
+/// The point of a row at the part `out` of the way from the midrib to the margin, and its place in
+/// pictures.
+static void row_point(const FrBladeForm *form, const FrNurbsRows *rows, uint32_t row, double side,
+                      double out, double point[4], double texture[2]) {
+    const FrOutlineRow *r = &rows->rows[row];
+    const FrNurbsMargin *margin = rows->margins != NULL ? &rows->margins[row][side > 0.0] : NULL;
+    double width = side > 0.0 ? r->right : r->left;
+    double along = margin != NULL ? r->along + out * (margin->along - r->along) : r->along;
+    fr_blade_point(form, along, side * out * width * form->width, point);
+    if (margin != NULL && out == 1.0) {
+        memcpy(point, margin->at, sizeof margin->at);
+    }
+    point[3] = 1.0;
+    texture[0] = fmin(fmax(0.5 + side * out * width, 0.0), 1.0);
+    texture[1] = 1.0 - along;
+}
+
 // `side` −1 is the left half, 1 the right one, whose v begins at the margin.
-static void lay_half(GArray *forms, const FrBladeForm *form, const FrOutlineRow *rows,
-                     uint32_t count, const double *at, uint32_t across, double side) {
+static void lay_half(GArray *forms, const FrBladeForm *form, const FrNurbsRows *rows,
+                     uint32_t across, double side) {
+    const double *at = rows->at;
+    uint32_t count = rows->count, degree = rows->margins != NULL ? 1 : 3;
     uint32_t kind = side > 0.0 ? FR_NURBS_RIGHT : FR_NURBS_LEFT;
-    FrNurbsForm *half = fr_nurbs_form_add(forms, kind, 3, count, across - 1, across);
+    FrNurbsForm *half = fr_nurbs_form_add(forms, kind, degree, count, across - 1, across);
     const double ends[] = {0.0, 1.0 / 3, 2.0 / 3, 1.0};
     double parts[ACROSS_MOST];
+    half->texture = g_malloc_n((size_t)across * count, sizeof *half->texture);
     for (uint32_t j = 0; j < across; j++) {
         parts[j] = across == 2 ? (double)j : ends[j];
         double out = side > 0.0 ? 1.0 - parts[j] : parts[j];
         for (uint32_t i = 0; i < count; i++) {
-            double width = (side > 0.0 ? rows[i].right : rows[i].left) * form->width;
-            double *point = half->points[j * count + i];
-            fr_blade_point(form, rows[i].along, side * out * width, point);
-            point[3] = 1.0;
+            size_t n = (size_t)j * count + i;
+            row_point(form, rows, i, side, out, half->points[n], half->texture[n]);
         }
     }
-    half->texture = g_malloc_n((size_t)across * count, sizeof *half->texture);
-    for (uint32_t j = 0; j < across; j++) {
-        double out = side > 0.0 ? 1.0 - parts[j] : parts[j];
-        for (uint32_t i = 0; i < count; i++) {
-            double width = side > 0.0 ? rows[i].right : rows[i].left;
-            half->texture[j * count + i][0] = fmin(fmax(0.5 + side * out * width, 0.0), 1.0);
-            half->texture[j * count + i][1] = 1.0 - rows[i].along;
-        }
-    }
-    fr_nurbs_average_knots(at, count, 3, half->knots_u);
+    fr_nurbs_average_knots(at, count, degree, half->knots_u);
     fr_nurbs_average_knots(parts, across, across - 1, half->knots_v);
-    for (uint32_t j = 0; j < across; j++) {
+    for (uint32_t j = 0; j < across && degree > 1; j++) {
         fr_nurbs_interpolate(half->knots_u, 3, at, count, half->points[j * count], 3, 4);
         fr_nurbs_interpolate(half->knots_u, 3, at, count, half->texture[j * count], 2, 2);
     }
@@ -223,8 +243,41 @@ static void lay_exact(GArray *forms, const FrBladeForm *form, const FrOutline *o
     lay_exact_half(forms, form, rows, count, at, across, -1.0);
 }
 
+static void lay_rows(GArray *forms, const FrBladeForm *form, FrNurbsRows *rows, uint32_t across) {
+    set_parameters(form, rows->rows, rows->count, rows->at);
+    lay_half(forms, form, rows, across, 1.0);
+    lay_half(forms, form, rows, across, -1.0);
+    fr_nurbs_rows_clear(rows);
+}
+
+/// How many rows a blade with smooth margins has.
+static uint32_t smooth_rows(const FrBlade *blade) {
+    double waves = blade->wave != 0.0F ? 8.0 * fabs((double)blade->waves) : 0.0;
+    double bumps = blade->undulation > 0.0F ? 4.0 * (double)blade->undulations : 0.0;
+    double bends = fmin(fmax(waves, bumps), MOST_ROWS);
+    uint32_t count =
+        CLAMP(MAX(3U * blade->segments_along, (uint32_t)bends) + 1, LEAST_ROWS, MOST_ROWS);
+    bool is_lobed = blade->margin == FR_MARGIN_LOBED;
+    return count + (is_lobed ? ROWS_A_LOBE * MIN(blade->teeth, FR_LOBES_MOST) : 0);
+}
+
+void fr_nurbs_rows_clear(FrNurbsRows *rows) {
+    g_free(rows->rows);
+    g_free(rows->at);
+    g_free(rows->margins);
+}
+
 void fr_nurbs_leaf(GArray *forms, const FrPlant *plant, const FrBlade *blade,
                    const FrNurbsParams *params) {
+    if (blade->compound == FR_COMPOUND_SIMPLE) {
+        fr_nurbs_blade(forms, plant, blade, params);
+    } else {
+        fr_nurbs_compound(forms, plant, blade, params);
+    }
+}
+
+void fr_nurbs_blade(GArray *forms, const FrPlant *plant, const FrBlade *blade,
+                    const FrNurbsParams *params) {
     FrBladeForm form;
     bool has_blade = fr_blade_form_init(&form, plant, blade);
     lay_petiole(forms, &form, params);
@@ -233,20 +286,27 @@ void fr_nurbs_leaf(GArray *forms, const FrPlant *plant, const FrBlade *blade,
     if (!has_blade || !(outline.area > 1e-6)) {
         return;
     }
+    fr_outline_lobe(&outline, blade);
     fr_outline_thicken(&outline, blade);
-    double waves = blade->wave != 0.0F ? fmin(8.0 * fabs((double)blade->waves), MOST_ROWS) : 0.0;
-    uint32_t count = MAX(3U * blade->segments_along, (uint32_t)waves) + 1;
-    count = CLAMP(count, LEAST_ROWS, MOST_ROWS);
-    bool is_level = blade->curvature_across == 0.0F && blade->wave == 0.0F;
+    bool is_level = blade->curvature_across == 0.0F && blade->wave == 0.0F &&
+                    blade->edge_curl == 0.0F && blade->undulation == 0.0F;
     uint32_t across = is_level ? 2 : ACROSS_MOST;
-    if (params->margins == FR_MARGINS_EXACT) {
+    bool is_exact = params->margins == FR_MARGINS_EXACT, is_toothed = fr_blade_has_teeth(blade);
+    if (is_exact && !is_toothed) {
         lay_exact(forms, &form, &outline, across);
         return;
     }
-    FrOutlineRow rows[MOST_ROWS];
-    double at[MOST_ROWS];
-    fr_outline_rows(&outline, count - 1, rows);
-    set_parameters(&form, rows, count, at);
-    lay_half(forms, &form, rows, count, at, across, 1.0);
-    lay_half(forms, &form, rows, count, at, across, -1.0);
+    FrOutlineRow base[MAX(FR_OUTLINE_FINE + 1, ROWS_OF_ALL)];
+    uint32_t count = is_exact ? exact_rows(&outline, base) : smooth_rows(blade);
+    if (!is_exact) {
+        fr_outline_rows(&outline, count - 1, base);
+    }
+    FrNurbsRows rows;
+    if (is_toothed) {
+        fr_nurbs_toothed(&form, base, count, &rows);
+    } else {
+        rows =
+            (FrNurbsRows){g_memdup2(base, count * sizeof *base), g_new(double, count), NULL, count};
+    }
+    lay_rows(forms, &form, &rows, across);
 }

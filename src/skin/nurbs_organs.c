@@ -39,7 +39,8 @@ FrStatus fr_nurbs_make_shapes(FrNurbsJob *job) {
     for (uint32_t i = 0; i < plant->shapes->len; i++) {
         bool is_used = job->shapes[i].points > 0;
         const FrShape *shape = &g_array_index(plant->shapes, FrShape, i);
-        bytes = fr_count_add(bytes, is_used ? fr_nurbs_shape_bytes_most(plant, shape) : 0);
+        bytes =
+            fr_count_add(bytes, is_used ? fr_nurbs_shape_bytes_most(plant, shape, job->params) : 0);
     }
     FrStatus status = fr_limit_check(bytes, job->context->limits.bytes, "bytes", "shapes of organs",
                                      (FrSpan){0}, job->context->diags);

@@ -314,12 +314,13 @@ static uint64_t file_bytes(const FrPlant *plant, const FrShape *shape) {
     return bytes;
 }
 
-uint64_t fr_nurbs_shape_bytes_most(const FrPlant *plant, const FrShape *shape) {
+uint64_t fr_nurbs_shape_bytes_most(const FrPlant *plant, const FrShape *shape,
+                                   const FrNurbsParams *params) {
     const FrProfile *outline = profile_of(plant, shape->outline);
     const FrProfile *triangles = profile_of(plant, shape->detail);
     switch (shape->kind) {
     case FR_SHAPE_BLADE:
-        return fr_nurbs_leaf_bytes_most();
+        return fr_nurbs_leaf_bytes_most(&shape->blade, params);
     case FR_SHAPE_REVOLUTION:
         return outline != NULL ? fr_count_multiply(outline->count, 9 * 32 + 64) + 1024 : 0;
     case FR_SHAPE_MESH:
