@@ -9,8 +9,8 @@ enum { FR_STALK_PIECES = 24 };
 
 /// A petiole and the rachis behind it, in the plane of y and z.
 typedef struct FrStalk {
-    float petiole, rachis;          ///< m
-    vec3s at[FR_STALK_PIECES + 1];  ///< at even steps
+    float petiole, rachis;         ///< m
+    vec3s at[FR_STALK_PIECES + 1]; ///< at even steps
     float angle[FR_STALK_PIECES + 1];
     float radius; ///< m, at its base
 } FrStalk;

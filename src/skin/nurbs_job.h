@@ -67,6 +67,11 @@ bool fr_fork_is_wanted(const FrNurbsJob *job, const FrTube *tube);
 void fr_fork_write(const FrNurbsJob *job, const FrTube *tube, const double *knots,
                    FrNurbsPiece *pieces, double (*points)[4]);
 
+// nurbs_left_out.c
+
+/// Warns once of each plant whose branches have a finish that surfaces leave out.
+void fr_nurbs_tell_left_out(const FrNurbsJob *job);
+
 // nurbs_tubes.c, nurbs_organs.c: count what there is, give it its places, write it.
 
 void fr_nurbs_place_tubes(FrNurbsJob *job);

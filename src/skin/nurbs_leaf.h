@@ -14,8 +14,8 @@ typedef struct FrNurbsMargin {
 
 /// Rows of control points across a blade.
 typedef struct FrNurbsRows {
-    FrOutlineRow *rows; ///< from where on the midrib, and how wide; owned
-    double *at;         ///< parameters along the blade, 0 to 1; owned
+    FrOutlineRow *rows;          ///< from where on the midrib, and how wide; owned
+    double *at;                  ///< parameters along the blade, 0 to 1; owned
     FrNurbsMargin (*margins)[2]; ///< left and right; owned; NULL: straight across
     uint32_t count;
 } FrNurbsRows;

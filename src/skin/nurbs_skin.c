@@ -177,6 +177,7 @@ static FrStatus skin_plant(const FrPlant *plant, const FrNurbsParams *params, in
     job.paths = g_new0(FrNurbsPath, (size_t)workers);
     FrStatus status = run(&job);
     if (status == FR_OK) {
+        fr_nurbs_tell_left_out(&job);
         *skin = job.skin;
         fr_progress_report(context->progress, "skin", 1.0);
     } else {

@@ -1,9 +1,9 @@
 // Teeth of a blade as corners of its margin. Both halves have their rows at the same parts of their
 // edges, so that they share the midrib.
 //
-// Rows that went straight across would pass over one another where the margin turns to the tip. They
-// go along the normals of the outline instead: the normal at the half width x meets the midrib at
-// along + (x² / 2)′ / length².
+// Rows that went straight across would pass over one another where the margin turns to the tip.
+// They go along the normals of the outline instead: the normal at the half width x meets the midrib
+// at along + (x² / 2)′ / length².
 #include "skin/nurbs_leaf.h"
 
 #include "skin/margin.h"
@@ -139,8 +139,7 @@ void fr_nurbs_toothed(const FrBladeForm *form, const FrOutlineRow *base, uint32_
     end_row(form, &base[0], &rows->rows[0], rows->margins[0]);
     for (uint32_t i = 1; i + 1 < parts->len; i++) {
         FrToothStep step;
-        FrTooth tooth =
-            tooth_over(form, g_array_index(parts, double, i), steps, step_count, &step);
+        FrTooth tooth = tooth_over(form, g_array_index(parts, double, i), steps, step_count, &step);
         tooth_row(edges, &tooth, &step, &rows->rows[i], rows->margins[i]);
         rows->rows[i].along = fmax(rows->rows[i].along, rows->rows[i - 1].along);
     }

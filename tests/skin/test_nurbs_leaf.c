@@ -58,8 +58,8 @@ static FrShape level_leaf(void) {
     return leaf;
 }
 
-/// An ellipse of 0.1 by 0.05 with triangles on it. Each has an area of half its foot times its height;
-/// feet take 91 % of the margin, and heights have their factor of size.
+/// An ellipse of 0.1 by 0.05 with triangles on it. Each has an area of half its foot times its
+/// height; feet take 91 % of the margin, and heights have their factor of size.
 static void teeth(void) {
     static const uint32_t margins[] = {FR_MARGIN_SERRATE, FR_MARGIN_DENTATE};
     FrShape leaf = level_leaf();
@@ -137,8 +137,7 @@ static void compound(void) {
         FrNurbsSkin *skin = skinned(plant, &params);
         g_assert_cmpuint(count_kind(skin, FR_NURBS_RIGHT), ==, kinds[i].leaflets);
         g_assert_cmpuint(count_kind(skin, FR_NURBS_LEFT), ==, kinds[i].leaflets);
-        g_assert_cmpuint(count_kind(skin, FR_NURBS_TUBE), ==,
-                         kinds[i].leaflets + kinds[i].stalks);
+        g_assert_cmpuint(count_kind(skin, FR_NURBS_TUBE), ==, kinds[i].leaflets + kinds[i].stalks);
         double triangles = area_of_triangles(&leaf);
         g_assert_cmpfloat_with_epsilon(area_of_surfaces(&leaf, &params), triangles,
                                        0.03 * triangles);

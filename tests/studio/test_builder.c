@@ -104,6 +104,25 @@ static void test_leaves(Fixture *fixture, gconstpointer data) {
     studio_document_free(document);
 }
 
+static void test_surfaces(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    StudioDocument *document = open_example("examples/nurbs/star.frond");
+    request(fixture, document, NAN);
+    const StudioBuilt *built = await(fixture);
+    const StudioPlant *plant = g_ptr_array_index(built->view->plants, 0);
+    g_assert_true(plant->is_rational);
+    g_assert_null(plant->coarse_wood);
+    FrContext context = fr_context_default();
+    FrSkinParams skin = fr_skin_default();
+    FrMesh *mesh;
+    const FrScenePlant *shown = &g_array_index(built->view->scene->plants, FrScenePlant, 0);
+    g_assert_cmpint(fr_scene_mesh(shown, &skin, FR_UP_Z, &context, &mesh), ==, FR_OK);
+    g_assert_cmphex(fr_mesh_digest(plant->foliage), ==, fr_mesh_digest(mesh));
+    fr_mesh_free(mesh);
+    studio_builder_release(fixture->builder);
+    studio_document_free(document);
+}
+
 static void test_last_good_stays(Fixture *fixture, gconstpointer data) {
     (void)data;
     StudioDocument *document = open_example("examples/figure2.frond");
@@ -261,6 +280,7 @@ int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     ADD("/studio/builder/a document becomes a view with counts", test_builds);
     ADD("/studio/builder/the first leaves of a batch are spread over all", test_leaves);
+    ADD("/studio/builder/plants with surfaces are shown as surfaces", test_surfaces);
     ADD("/studio/builder/a mistake has its place and does not stop the next build",
         test_last_good_stays);
     ADD("/studio/builder/of many requests the last is built", test_newest_only);

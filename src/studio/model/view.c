@@ -208,10 +208,13 @@ static void add_shapes(StudioPlant *view, const FrContext *context) {
     }
 }
 
-static StudioPlant *plant_new(const FrPlant *plant, const FrSkin *wood, const FrContext *context) {
+static StudioPlant *plant_new(const FrScenePlant *built, const FrSkin *wood,
+                              const FrContext *context) {
+    const FrPlant *plant = built->plant;
     StudioPlant *view = g_new0(StudioPlant, 1);
     view->plant = plant;
     view->wood = wood;
+    view->is_rational = built->has_nurbs;
     view->leaves = g_array_new(FALSE, FALSE, sizeof(StudioLeaf));
     view->batches = g_array_new(FALSE, TRUE, sizeof(StudioBatch));
     view->shapes = g_array_new(FALSE, TRUE, sizeof(StudioShape));
@@ -223,9 +226,9 @@ static StudioPlant *plant_new(const FrPlant *plant, const FrSkin *wood, const Fr
         StudioLook look = look_of(g_ptr_array_index(plant->materials, i));
         g_array_append_val(view->looks, look);
     }
-    if (has_deformed_leaves(plant)) {
+    if (view->is_rational || has_deformed_leaves(plant)) {
         FrSkinParams params = fr_skin_default();
-        FrStatus status = fr_skin_plant(plant, &params, FR_UP_Z, context, &view->foliage);
+        FrStatus status = fr_scene_mesh(built, &params, FR_UP_Z, context, &view->foliage);
         view->foliage = status == FR_OK ? view->foliage : NULL;
     } else {
         fill_leaves(view);
@@ -241,8 +244,8 @@ StudioView *studio_view_of(const FrScene *scene, const FrSkin *const *skins,
     view->scene = scene;
     view->plants = g_ptr_array_new_with_free_func(plant_free);
     for (guint i = 0; i < scene->plants->len; i++) {
-        const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, i).plant;
-        g_ptr_array_add(view->plants, plant_new(plant, skins[i], context));
+        const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, i);
+        g_ptr_array_add(view->plants, plant_new(built, skins[i], context));
     }
     return view;
 }
@@ -299,8 +302,8 @@ void studio_view_add_coarse(StudioView *view, const FrContext *context) {
     params.collar = 0;
     for (guint i = 0; i < view->plants->len; i++) {
         StudioPlant *plant = g_ptr_array_index(view->plants, i);
-        if (plant->coarse_wood != NULL) {
-            continue; // taken over
+        if (plant->coarse_wood != NULL || plant->is_rational) {
+            continue; // taken over, or not drawn
         }
         uint16_t *flags = g_new(uint16_t, plant->plant->axes.count + 1);
         FrPlant thin = thinned(plant->plant, flags);

@@ -42,7 +42,9 @@ typedef struct StudioPlant {
     const FrPlant *plant; ///< borrowed
     const FrSkin *wood;   ///< borrowed
     FrMesh *coarse_wood;  ///< for while the view moves; NULL: not made yet
-    FrMesh *foliage;      ///< of a plant whose leaves are deformed; else NULL
+    FrMesh *foliage;      ///< of a plant whose leaves are deformed, or all of one that is shown as
+                          ///< rational surfaces; else NULL
+    bool is_rational;     ///< shown as rational surfaces: no wood is drawn
     GArray *leaves;       ///< StudioLeaf
     GArray *batches;      ///< StudioBatch
     GArray *shapes;       ///< StudioShape, by shape of the plant

@@ -160,6 +160,12 @@ static void send_mesh_part(Part *part, const FrMesh *mesh, const FrMeshPart *fro
 }
 
 static void send_wood(Plant *plant, const FrSkin *skin) {
+    if (skin == NULL) {
+        plant->skin = NULL;
+        plant->wood_triangles = 0;
+        g_array_set_size(plant->wood, 0);
+        return;
+    }
     uint32_t count;
     const FrSkinPart *parts = fr_skin_parts(skin, &count);
     bool is_known = plant->skin == skin && plant->wood->len == count;
@@ -221,8 +227,8 @@ static void copy_looks(Plant *plant, const StudioPlant *from) {
 }
 
 static void send_plant(Plant *plant, const StudioPlant *from) {
-    send_wood(plant, from->wood);
-    send_mesh(plant->coarse, from->coarse_wood);
+    send_wood(plant, from->is_rational ? NULL : from->wood);
+    send_mesh(plant->coarse, from->is_rational ? NULL : from->coarse_wood);
     send_mesh(plant->foliage, from->foliage);
     send_shapes(plant, from);
     g_array_set_size(plant->batches, 0);
