@@ -99,6 +99,7 @@ static const Shortcut rows[] = {
     {NULL, "Left Right Up Down", "Turn; with Shift, move"},
     {NULL, "<Control>plus", "Nearer"},
     {NULL, "<Control>minus", "Farther"},
+    {NULL, "<Control>t", "Sketch: draw the shape of branches"},
     {"Panels", "<Alt>1", "Graph"},
     {NULL, "<Alt>2", "Contents"},
     {NULL, "<Alt>3", "Text"},

@@ -144,6 +144,14 @@ static void state(Drive *drive, char *const *words, const char *rest) {
            pace.fine_seconds, pace.coarse_triangles);
 }
 
+static void sketch(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    char *text = studio_sketch_panel_state(drive->window->sketch);
+    answer("%s", text);
+    g_free(text);
+}
+
 static gboolean on_wait(gpointer data) {
     Drive *drive = data;
     drive->settled = studio_window_is_idle(drive->window) ? drive->settled + 1 : 0;
@@ -290,6 +298,7 @@ static const struct {
     {"picture-of-dialog", picture_of_dialog, 2, false},
     {"close-dialog", close_dialog, 1, false},
     {"state", state, 1, false},
+    {"sketch", sketch, 1, false},
     {"keep", keep, 1, false},
     {"restore", restore, 1, false},
     {"quit", quit, 1, true},

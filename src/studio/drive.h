@@ -18,5 +18,6 @@
 ///   picture-of-dialog FILE, close-dialog    the same of the dialog above it, which goes
 ///   keep, restore          writes the copy for a crash; opens what a crash has left
 ///   state                  answers with what the document and the view are, as JSON
+///   sketch                  answers with what is chosen and drawn in the sketch mode, as JSON
 ///   quit                   ends without a question
 void studio_drive(StudioWindow *window);

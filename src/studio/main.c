@@ -25,6 +25,7 @@ static void add_keys(GtkApplication *application) {
         {"win.toggle-enabled", {"<Control>k"}},
         {"win.roll", {"<Control>r"}},
         {"win.problem", {"F8"}},
+        {"win.sketch", {"<Control>t"}},
         {"win.zoom(0.8)", {"<Control>plus", "<Control>equal"}},
         {"win.zoom(1.25)", {"<Control>minus"}},
         {"win.side('graph')", {"<Alt>1"}},

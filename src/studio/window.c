@@ -164,7 +164,11 @@ static void on_document_changed(void *user) {
     update_panels(window);
     studio_window_show_texts(window);
     studio_window_update_actions(window);
-    studio_window_request(window);
+    if (studio_window_is_sketching(window)) {
+        studio_sketch_panel_follow(window->sketch);
+    } else {
+        studio_window_request(window);
+    }
 }
 
 static gboolean on_autosave(gpointer data) {
@@ -178,6 +182,7 @@ static gboolean on_autosave(gpointer data) {
 static void drop_document(StudioWindow *window) {
     g_clear_pointer(&window->recovery, studio_recovery_free);
     if (window->document != NULL && window->settings != NULL) {
+        studio_window_forget_sketch(window);
         studio_text_panel_forget(window->text);
         studio_text_panel_forget(window->lsystem);
     }
@@ -323,6 +328,7 @@ StudioWindow *studio_window_new(AdwApplication *application, StudioSettings *set
     adw_toast_overlay_set_child(window->toasts, window->stack);
     gtk_stack_add_named(GTK_STACK(window->stack), studio_welcome_new(window), "welcome");
     gtk_stack_add_named(GTK_STACK(window->stack), studio_window_make_panes(window), "document");
+    studio_window_add_sketch(window);
     adw_application_window_set_content(ADW_APPLICATION_WINDOW(window), box);
     gtk_window_set_default_size(GTK_WINDOW(window), studio_settings_int(settings, "width", 1440),
                                 studio_settings_int(settings, "height", 900));

@@ -417,9 +417,9 @@ static void set_tip(GtkWidget *button, const char *verb, const char *step) {
 
 void studio_window_update_actions(StudioWindow *window) {
     static const char *const always[] = {
-        "save-as", "save-to", "export", "export-to", "screenshot", "add",
-        "prune",   "hide",    "roll",   "set",       "select",     "frame",
-        "zoom",    "mode",    "grid",   "shadow",    "occlusion",  "side"};
+        "save-as", "save-to", "export",    "export-to", "screenshot", "add",  "prune",
+        "hide",    "roll",    "set",       "select",    "frame",      "zoom", "mode",
+        "grid",    "shadow",  "occlusion", "side",      "sketch"};
     StudioDocument *document = window->document;
     bool is_there = document != NULL;
     for (size_t i = 0; i < G_N_ELEMENTS(always); i++) {

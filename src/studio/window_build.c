@@ -140,6 +140,9 @@ void studio_window_poll(StudioWindow *window) {
 
 bool studio_window_is_idle(StudioWindow *window) {
     double fraction, seconds;
+    if (window->document != NULL && studio_window_is_sketching(window)) {
+        return studio_sketch_panel_is_idle(window->sketch);
+    }
     return window->document == NULL ||
            (window->shown == window->asked && window->exports == 0 &&
             !studio_builder_is_busy(window->builder, &fraction, &seconds) &&

@@ -102,7 +102,11 @@ GtkWidget *studio_window_make_header(StudioWindow *window) {
     GtkWidget *export = gtk_button_new_with_label("Export…");
     gtk_actionable_set_action_name(GTK_ACTIONABLE(export), "win.export");
     adw_header_bar_pack_end(bar, export);
-    GtkWidget *hidden[] = {window->undo, window->redo, window->save_button, export};
+    GtkWidget *sketch = gtk_toggle_button_new_with_label("Sketch");
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(sketch), "win.sketch");
+    gtk_widget_set_tooltip_text(sketch, "Draw the shape of branches (Ctrl+T)");
+    adw_header_bar_pack_start(bar, sketch);
+    GtkWidget *hidden[] = {window->undo, window->redo, window->save_button, export, sketch};
     memcpy(window->welcome_hidden, hidden, sizeof hidden);
     for (size_t i = 0; i < G_N_ELEMENTS(hidden); i++) {
         gtk_widget_set_visible(hidden[i], FALSE);

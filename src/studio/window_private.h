@@ -11,6 +11,7 @@
 #include "studio/model/hand.h"
 #include "studio/model/place.h"
 #include "studio/picture.h"
+#include "studio/sketch_panel.h"
 #include "studio/text_panel.h"
 #include "studio/things_panel.h"
 #include "studio/time_strip.h"
@@ -39,7 +40,7 @@ struct _StudioWindow {
     AdwWindowTitle *title;
     AdwToastOverlay *toasts;
     GtkWidget *outer, *inner; ///< panes
-    GtkWidget *undo, *redo, *save_button, *welcome_hidden[4];
+    GtkWidget *undo, *redo, *save_button, *welcome_hidden[5];
     StudioViewport *viewport;
     GtkWidget *side; ///< stack of graph, things and text
     StudioGraphPanel *graph;
@@ -48,6 +49,7 @@ struct _StudioWindow {
     StudioInspector *inspector;
     StudioTimeStrip *strip;
     StudioLightMode *light;
+    StudioSketchPanel *sketch;
     GtkWidget *picked_bar, *picked_text;
     GtkWidget *amount, *problem, *problem_text, *busy, *busy_text, *busy_bar, *scale;
 };
@@ -95,6 +97,15 @@ void studio_window_update_problem(StudioWindow *window);
 
 GtkWidget *studio_window_make_header(StudioWindow *window);
 GtkWidget *studio_window_make_panes(StudioWindow *window);
+
+// window_sketch.c
+
+/// Makes the page of the sketch mode and its actions.
+void studio_window_add_sketch(StudioWindow *window);
+/// Whether branches are being drawn: then nothing is built but what that shows.
+bool studio_window_is_sketching(StudioWindow *window);
+/// The document goes: ends it.
+void studio_window_forget_sketch(StudioWindow *window);
 
 // welcome.c
 
