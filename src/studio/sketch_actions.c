@@ -218,8 +218,7 @@ static void do_dice(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)parameter;
     StudioSketchPanel *panel = data;
     const FrContents *contents = studio_sketch_contents(panel);
-    uint32_t vary =
-        contents == NULL ? FR_NONE : studio_sketch_vary(contents, panel->of.varied);
+    uint32_t vary = contents == NULL ? FR_NONE : studio_sketch_vary(contents, panel->of.varied);
     if (vary == FR_NONE) {
         studio_sketch_say(panel, "Draw a stroke first: instances are those of a variation");
         return;
@@ -245,8 +244,7 @@ static void do_place(GSimpleAction *action, GVariant *parameter, gpointer data) 
     }
     guint first = panel->seed + (panel->is_sheet ? 0 : panel->chosen);
     guint count = panel->is_sheet ? panel->count : 1;
-    if (studio_sketch_place(panel->document, &panel->of, first, count,
-                            studio_sketch_step(panel))) {
+    if (studio_sketch_place(panel->document, &panel->of, first, count, studio_sketch_step(panel))) {
         char *text = count == 1 ? g_strdup("It stands in the scene")
                                 : g_strdup_printf("%u stand in the scene", count);
         studio_sketch_say(panel, text);
@@ -256,7 +254,10 @@ static void do_place(GSimpleAction *action, GVariant *parameter, gpointer data) 
 
 void studio_sketch_add_actions(StudioSketchPanel *panel) {
     static const GActionEntry entries[] = {
-        {.name = "sketch-tool", .parameter_type = "s", .state = "'paint'", .change_state = set_tool},
+        {.name = "sketch-tool",
+         .parameter_type = "s",
+         .state = "'paint'",
+         .change_state = set_tool},
         {.name = "sketch-pen", .parameter_type = "s", .state = "'stroke'", .change_state = set_pen},
         {.name = "sketch-apply",
          .parameter_type = "s",

@@ -15,10 +15,11 @@ static const float pen_width = 9;     // pixels in the plane
 struct _StudioSketchBoard {
     GtkWidget parent;
     StudioBoard board;
-    StudioCanvas canvas;
+    StudioCanvas canvas, trace_canvas;
     GArray *layers[2];
     GArray *events; // FrPenEvent
     GArray *live;   // StudioLine: what is being drawn
+    GArray *trace;  // the same as a hair
     uint8_t colour[4];
     gboolean is_arrow, is_tilting;
     bool is_down, is_device; // the pen draws; a device leads it
@@ -64,6 +65,9 @@ static void extend(StudioSketchBoard *board, double pressure) {
         memcpy(line.to, to, sizeof line.to);
         memcpy(line.colour, board->colour, sizeof line.colour);
         g_array_append_val(board->live, line);
+        line.width = 1;
+        line.colour[3] = 110;
+        g_array_append_val(board->trace, line);
     }
     memcpy(board->last, at, sizeof board->last);
     gtk_widget_queue_draw(GTK_WIDGET(board));
@@ -73,8 +77,8 @@ static void move(StudioSketchBoard *board, double x, double y, double pressure, 
     board->x = x;
     board->y = y;
     if (board->is_down) {
-        add(board, (FrPenEvent){.kind = FR_PEN_MOVE, .x = x, .y = y, .pressure = pressure,
-                                .time = time});
+        add(board,
+            (FrPenEvent){.kind = FR_PEN_MOVE, .x = x, .y = y, .pressure = pressure, .time = time});
         extend(board, pressure);
     }
 }
@@ -82,6 +86,7 @@ static void move(StudioSketchBoard *board, double x, double y, double pressure, 
 static void begin(StudioSketchBoard *board, bool is_device, double x, double y, double pressure) {
     g_array_set_size(board->events, 0);
     g_array_set_size(board->live, 0);
+    g_array_set_size(board->trace, 0);
     board->began = g_get_monotonic_time();
     board->is_down = true;
     board->is_device = is_device;
@@ -112,8 +117,8 @@ static void raise_to(StudioSketchBoard *board, double height, double time) {
         return;
     }
     if (board->is_down) {
-        add(board, (FrPenEvent){.kind = FR_PEN_HEIGHT, .height = board->board.height,
-                                .time = time});
+        add(board,
+            (FrPenEvent){.kind = FR_PEN_HEIGHT, .height = board->board.height, .time = time});
         if (!board->is_device) {
             move(board, board->x, board->y, 1, time);
         }
@@ -278,7 +283,8 @@ static void draw_plane(StudioSketchBoard *board, GtkSnapshot *snapshot) {
 
 static void studio_sketch_board_snapshot(GtkWidget *widget, GtkSnapshot *snapshot) {
     StudioSketchBoard *board = STUDIO_SKETCH_BOARD(widget);
-    float width = (float)gtk_widget_get_width(widget), height = (float)gtk_widget_get_height(widget);
+    float width = (float)gtk_widget_get_width(widget),
+          height = (float)gtk_widget_get_height(widget);
     if (width < 1 || height < 1) {
         return;
     }
@@ -286,6 +292,12 @@ static void studio_sketch_board_snapshot(GtkWidget *widget, GtkSnapshot *snapsho
     StudioLens lens = studio_board_lens(&board->board, (double)(width / height));
     GArray *layers[] = {board->layers[0], board->layers[1], board->live};
     graphene_rect_t area = GRAPHENE_RECT_INIT(0, 0, width, height);
+    if (board->is_down) { // what of it lies before the plane by now is no more than a hair
+        StudioLens before = lens;
+        before.nearest = 0.1f * lens.unit;
+        studio_canvas_draw(&board->trace_canvas, widget, snapshot, &area, &before, &board->trace,
+                           1);
+    }
     studio_canvas_draw(&board->canvas, widget, snapshot, &area, &lens, layers, 3);
 }
 
@@ -326,10 +338,12 @@ const GArray *studio_sketch_board_events(StudioSketchBoard *board) {
 static void studio_sketch_board_finalize(GObject *object) {
     StudioSketchBoard *board = STUDIO_SKETCH_BOARD(object);
     studio_canvas_clear(&board->canvas);
+    studio_canvas_clear(&board->trace_canvas);
     g_clear_pointer(&board->layers[0], g_array_unref);
     g_clear_pointer(&board->layers[1], g_array_unref);
     g_array_unref(board->events);
     g_array_unref(board->live);
+    g_array_unref(board->trace);
     G_OBJECT_CLASS(studio_sketch_board_parent_class)->finalize(object);
 }
 
@@ -348,10 +362,10 @@ static void studio_sketch_board_class_init(StudioSketchBoardClass *class) {
 
 static void studio_sketch_board_init(StudioSketchBoard *board) {
     GtkWidget *widget = GTK_WIDGET(board);
-    double nothing[3] = {0, 0, 0};
-    studio_board_frame(&board->board, nothing, nothing, 1);
+    studio_board_frame(&board->board, NULL, 0, 1);
     board->events = g_array_new(FALSE, FALSE, sizeof(FrPenEvent));
     board->live = g_array_new(FALSE, FALSE, sizeof(StudioLine));
+    board->trace = g_array_new(FALSE, FALSE, sizeof(StudioLine));
     gtk_widget_set_focusable(widget, TRUE);
     gtk_widget_set_hexpand(widget, TRUE);
     gtk_widget_set_vexpand(widget, TRUE);

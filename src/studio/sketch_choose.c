@@ -2,6 +2,7 @@
 /// all that a component made.
 #include "studio/sketch_panel_private.h"
 
+#include <math.h>
 #include <string.h>
 
 static const double grab = 9; // pixels that count as a branch
@@ -12,22 +13,28 @@ static const FrPlant *plant_of(StudioSketchPanel *panel) {
 
 // ---- the choice --------------------------------------------------------------------------------
 
-// Brings the board to what is chosen: its middle there, its plane where the first branch begins.
+// Brings the board to what is chosen, else to the plant, its plane just before it, so that all of
+// it is seen.
 static void bring_board(StudioSketchPanel *panel) {
     StudioBoard *board = studio_sketch_board_get(panel->board);
-    double min[3], max[3];
     uint32_t first = studio_sketch_first(plant_of(panel), panel->states);
     bool is_path = panel->kind == STUDIO_CHOSEN_PAINTED && first != FR_NONE;
-    studio_sketch_bounds(plant_of(panel), is_path ? panel->states : NULL, min, max);
+    GArray *lines = g_array_new(FALSE, FALSE, sizeof(StudioLine));
+    studio_sketch_add_chosen(lines, plant_of(panel), is_path ? panel->states : NULL);
     double width = gtk_widget_get_width(GTK_WIDGET(panel->board));
     double height = gtk_widget_get_height(GTK_WIDGET(panel->board));
     board->azimuth = studio_sketch_view_camera(panel->skeleton)->azimuth;
-    studio_board_frame(board, min, max, width > 0 && height > 0 ? width / height : 1);
-    if (is_path) {
-        vec3s at = fr_plant_axis_origin(plant_of(panel), first);
-        double origin[3] = {(double)at.x, (double)at.y, (double)at.z};
-        studio_board_raise(board, studio_board_height_of(board, origin));
+    studio_board_frame(board, (const StudioLine *)(const void *)lines->data, lines->len,
+                       width > 0 && height > 0 ? width / height : 1);
+    double nearest = -board->reach;
+    for (guint i = 0; i < 2 * lines->len; i++) {
+        const StudioLine *line = &g_array_index(lines, StudioLine, i / 2);
+        const float *end = i % 2 == 0 ? line->from : line->to;
+        double at[3] = {(double)end[0], (double)end[1], (double)end[2]};
+        nearest = fmax(nearest, studio_board_height_of(board, at));
     }
+    studio_board_raise(board, nearest + 0.005 * board->size);
+    g_array_unref(lines);
     studio_sketch_board_update(panel->board);
     studio_sketch_show_height(panel);
 }
@@ -141,13 +148,10 @@ void studio_sketch_take_base(StudioSketchPanel *panel, StudioBase *base) {
     panel->is_showing = true;
     fill_branches(panel);
     panel->is_showing = false;
-    if (is_first) {
-        double min[3], max[3];
-        studio_sketch_bounds(plant_of(panel), NULL, min, max);
-        studio_sketch_view_frame(panel->skeleton, min, max);
-        studio_sketch_view_frame(panel->strokes, min, max);
-    }
     studio_sketch_clear(panel);
+    if (is_first) {
+        studio_sketch_view_frame(panel->skeleton);
+    }
 }
 
 // ---- with the pen ------------------------------------------------------------------------------
@@ -194,7 +198,8 @@ static void use_painted(StudioSketchPanel *panel) {
 
 void studio_sketch_on_pen(StudioSketchView *view, int phase, double x, double y,
                           StudioSketchPanel *panel) {
-    if (panel->base == NULL || (phase == STUDIO_PEN_DOWN && !begin_painting(panel, GTK_WIDGET(view))) ||
+    if (panel->base == NULL ||
+        (phase == STUDIO_PEN_DOWN && !begin_painting(panel, GTK_WIDGET(view))) ||
         panel->seen == NULL) {
         return;
     }
@@ -256,9 +261,8 @@ gboolean studio_sketch_on_key(StudioSketchView *view, guint key, gboolean *is_ta
         return FALSE;
     }
     const FrPlant *plant = plant_of(panel);
-    uint32_t now = panel->kind == STUDIO_CHOSEN_PAINTED
-                       ? studio_sketch_first(plant, panel->states)
-                       : FR_NONE;
+    uint32_t now =
+        panel->kind == STUDIO_CHOSEN_PAINTED ? studio_sketch_first(plant, panel->states) : FR_NONE;
     uint32_t next = FR_NONE;
     if (key == GDK_KEY_Escape) {
         studio_sketch_clear(panel);

@@ -23,7 +23,7 @@ double studio_sketch_step(StudioSketchPanel *panel) {
     if (panel->base == NULL) {
         return 1;
     }
-    studio_sketch_bounds(panel->base->plant, NULL, min, max);
+    studio_sketch_bounds(panel->base->plant, min, max);
     double width = fmax(max[0] - min[0], max[1] - min[1]), height = max[2] - min[2];
     return fmax(1.2 * width, 0.3 * height);
 }
@@ -152,14 +152,13 @@ static void on_ready(StudioViewport *viewport, StudioSketchPanel *panel) {
 
 static void read_seed(StudioSketchPanel *panel, const FrContents *contents) {
     uint32_t vary = studio_sketch_vary(contents, panel->of.varied);
-    char *seed = vary == FR_NONE ? NULL
-                                 : fr_contents_get(contents, fr_contents_at(contents, vary)->parent,
-                                                   "seed");
+    char *seed = vary == FR_NONE
+                     ? NULL
+                     : fr_contents_get(contents, fr_contents_at(contents, vary)->parent, "seed");
     guint64 value = 1;
-    panel->seed =
-        seed != NULL && g_ascii_string_to_unsigned(seed, 10, 0, G_MAXINT32, &value, NULL)
-            ? (guint)value
-            : 1;
+    panel->seed = seed != NULL && g_ascii_string_to_unsigned(seed, 10, 0, G_MAXINT32, &value, NULL)
+                      ? (guint)value
+                      : 1;
     g_free(seed);
 }
 
@@ -194,7 +193,8 @@ void studio_sketch_panel_begin(StudioSketchPanel *panel, StudioDocument *documen
         panel->of = studio_sketch_of(contents, plant);
         uint32_t vary = studio_sketch_vary(contents, panel->last);
         char *base = vary == FR_NONE ? NULL : fr_contents_get(contents, vary, "base");
-        if (base != NULL && g_strcmp0(base, panel->of.base) == 0) { // goes on where it was left
+        const char *shown = plant == FR_NONE ? NULL : fr_contents_at(contents, plant)->id;
+        if (base != NULL && g_strcmp0(base, shown) == 0) { // goes on where it was left
             g_free(panel->of.varied);
             panel->of.varied = g_strdup(panel->last);
         }
@@ -212,6 +212,7 @@ void studio_sketch_panel_end(StudioSketchPanel *panel) {
     panel->is_playing = false;
     panel->strength = 1;
     panel->chosen = 0;
+    panel->is_framed = false;
     if (panel->of.varied != NULL) {
         g_free(panel->last);
         panel->last = g_steal_pointer(&panel->of.varied);
@@ -235,13 +236,13 @@ gboolean studio_sketch_panel_is_idle(StudioSketchPanel *panel) {
         return TRUE;
     }
     bool is_whole = panel->is_whole && gtk_widget_get_mapped(GTK_WIDGET(panel->viewport));
-    return !studio_sketcher_is_busy(panel->sketcher) &&
-           g_atomic_int_get(&panel->is_woken) == 0 && !panel->is_playing &&
-           (!is_whole || (panel->built == panel->revision &&
-                          !studio_builder_is_busy(panel->builder, &fraction, &seconds) &&
-                          !studio_builder_is_painting(panel->builder) &&
-                          g_atomic_int_get(&panel->is_built) == 0 &&
-                          studio_viewport_is_done(panel->viewport)));
+    return !studio_sketcher_is_busy(panel->sketcher) && g_atomic_int_get(&panel->is_woken) == 0 &&
+           !panel->is_playing &&
+           (!is_whole ||
+            (panel->built == panel->revision &&
+             !studio_builder_is_busy(panel->builder, &fraction, &seconds) &&
+             !studio_builder_is_painting(panel->builder) &&
+             g_atomic_int_get(&panel->is_built) == 0 && studio_viewport_is_done(panel->viewport)));
 }
 
 char *studio_sketch_panel_state(StudioSketchPanel *panel) {
@@ -297,8 +298,8 @@ static void studio_sketch_panel_init(StudioSketchPanel *panel) {
 }
 
 GtkWidget *studio_sketch_panel_new(GActionMap *actions) {
-    StudioSketchPanel *panel = g_object_new(STUDIO_TYPE_SKETCH_PANEL, "orientation",
-                                            GTK_ORIENTATION_VERTICAL, NULL);
+    StudioSketchPanel *panel =
+        g_object_new(STUDIO_TYPE_SKETCH_PANEL, "orientation", GTK_ORIENTATION_VERTICAL, NULL);
     panel->actions = actions;
     studio_sketch_add_actions(panel);
     studio_sketch_make(panel);

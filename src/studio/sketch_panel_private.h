@@ -30,13 +30,13 @@ struct _StudioSketchPanel {
     StudioSketched *done; // the last that came; NULL
     StudioBase *base;     // the plant that is shown; NULL
     StudioBuilder *builder;
-    gint is_built;        // atomic: the builder has something
-    uint64_t revision;    // of what was asked of the builder
-    uint64_t built;       // what came of it
-    double strength;      // of indicators, while they play
+    gint is_built;     // atomic: the builder has something
+    uint64_t revision; // of what was asked of the builder
+    uint64_t built;    // what came of it
+    double strength;   // of indicators, while they play
     bool is_playing;
-    guint seed;           // of the first instance
-    guint chosen, count;  // instances
+    guint seed;          // of the first instance
+    guint chosen, count; // instances
     bool is_sheet, is_whole;
 
     FrSelection *selection; // of the base
@@ -50,6 +50,7 @@ struct _StudioSketchPanel {
     FrIdBuffer *seen;  // while it is painted over
     uint32_t path_end; // the first end of a path; FR_NONE
     StudioDevice *device;
+    bool is_framed;  // the strokes were shown from where all is seen
     bool is_showing; // widgets are being set
 
     GtkWidget *variation, *drawn, *growth, *growth_rows, *marks;

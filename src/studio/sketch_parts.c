@@ -195,10 +195,9 @@ static GtkWidget *make_board(StudioSketchPanel *panel) {
     gtk_actionable_set_action_name(GTK_ACTIONABLE(panel->device_button), "win.sketch-device");
     gtk_widget_set_tooltip_text(panel->device_button,
                                 "Take height or strokes from a device that writes lines of text");
-    GtkWidget *second[] = {
-        choice_of("win.sketch-board", boards, G_N_ELEMENTS(boards)),
-        toggle("Tilt", "win.sketch-tilt", "The tilt of a pen moves the board"),
-        panel->device_button};
+    GtkWidget *second[] = {choice_of("win.sketch-board", boards, G_N_ELEMENTS(boards)),
+                           toggle("Tilt", "win.sketch-tilt", "The tilt of a pen moves the board"),
+                           panel->device_button};
     return pane_of("Board", row_of(first, G_N_ELEMENTS(first)),
                    row_of(second, G_N_ELEMENTS(second)), content);
 }
@@ -320,8 +319,8 @@ static GtkWidget *make_growth(StudioSketchPanel *panel) {
             gtk_box_append(GTK_BOX(panel->growth_rows), row);
         }
     }
-    panel->growth = popover_button("Growth", "How growth follows what was drawn",
-                                   panel->growth_rows, 380);
+    panel->growth =
+        popover_button("Growth", "How growth follows what was drawn", panel->growth_rows, 380);
     return panel->growth;
 }
 
@@ -332,8 +331,7 @@ static GtkWidget *make_bar(StudioSketchPanel *panel) {
     panel->marks = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
     panel->drawn = popover_button("Drawn: 0", "Strokes and indicators, to look at and remove",
                                   panel->marks, 300);
-    panel->hint = gtk_label_new(
-        "Choose branches in the skeleton, then draw on the board. The wheel moves the board.");
+    panel->hint = gtk_label_new("");
     gtk_label_set_ellipsize(GTK_LABEL(panel->hint), PANGO_ELLIPSIZE_END);
     gtk_label_set_xalign(GTK_LABEL(panel->hint), 0);
     gtk_widget_add_css_class(panel->hint, "dim-label");

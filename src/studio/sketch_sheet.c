@@ -10,7 +10,6 @@ enum { SIGNAL_CHOSEN, SIGNAL_OPENED, SIGNAL_COUNT };
 struct _StudioSketchSheet {
     GtkWidget parent;
     GPtrArray *instances; // GArray * of StudioLine
-    double min[3], max[3];
     guint64 first_seed;
     guint chosen;
     StudioCamera camera;
@@ -82,15 +81,16 @@ static void draw_choice(StudioSketchSheet *sheet, GtkSnapshot *snapshot,
 
 static void studio_sketch_sheet_snapshot(GtkWidget *widget, GtkSnapshot *snapshot) {
     StudioSketchSheet *sheet = STUDIO_SKETCH_SHEET(widget);
+    graphene_rect_t first = cell_of(sheet, 0);
+    if (first.size.width < 2 || first.size.height < 2) {
+        return;
+    }
+    double aspect = (double)(first.size.width / first.size.height);
+    studio_sketch_fit(&sheet->camera, (GArray *const *)sheet->instances->pdata,
+                      sheet->instances->len, aspect);
+    StudioLens lens = studio_sketch_lens(&sheet->camera, aspect);
     for (guint i = 0; i < sheet->instances->len; i++) {
         graphene_rect_t cell = cell_of(sheet, i);
-        if (cell.size.width < 2 || cell.size.height < 2) {
-            return;
-        }
-        double aspect = (double)(cell.size.width / cell.size.height);
-        StudioCamera camera = sheet->camera;
-        studio_sketch_fit(&camera, sheet->min, sheet->max, aspect);
-        StudioLens lens = studio_sketch_lens(&camera, aspect);
         GArray *layers[] = {g_ptr_array_index(sheet->instances, i)};
         studio_canvas_draw(&sheet->canvas, widget, snapshot, &cell, &lens, layers, 1);
         draw_number(sheet, snapshot, &cell, i);
@@ -161,17 +161,12 @@ static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkMo
 
 // ---- life --------------------------------------------------------------------------------------
 
-void studio_sketch_sheet_show(StudioSketchSheet *sheet, GPtrArray *instances, const double min[3],
-                              const double max[3], guint64 first_seed) {
+void studio_sketch_sheet_show(StudioSketchSheet *sheet, GPtrArray *instances, guint64 first_seed) {
     g_ptr_array_ref(instances);
     g_ptr_array_unref(sheet->instances);
     sheet->instances = instances;
     sheet->first_seed = first_seed;
     sheet->chosen = MIN(sheet->chosen, MAX(instances->len, 1) - 1);
-    for (int i = 0; i < 3; i++) {
-        sheet->min[i] = min[i];
-        sheet->max[i] = max[i];
-    }
     gtk_widget_queue_draw(GTK_WIDGET(sheet));
 }
 

@@ -12,9 +12,8 @@ G_DECLARE_FINAL_TYPE(StudioSketchSheet, studio_sketch_sheet, STUDIO, SKETCH_SHEE
 /// Signal "chosen" (guint index), "opened" (guint index): twice clicked, or Enter.
 
 GtkWidget *studio_sketch_sheet_new(void);
-/// Shows instances: arrays of StudioLine (references are taken), all within a box.
-void studio_sketch_sheet_show(StudioSketchSheet *sheet, GPtrArray *instances, const double min[3],
-                              const double max[3], guint64 first_seed);
+/// Shows instances: arrays of StudioLine (a reference is taken).
+void studio_sketch_sheet_show(StudioSketchSheet *sheet, GPtrArray *instances, guint64 first_seed);
 void studio_sketch_sheet_choose(StudioSketchSheet *sheet, guint index);
 /// From where they are seen: angles alone count.
 void studio_sketch_sheet_see(StudioSketchSheet *sheet, const StudioCamera *camera);

@@ -18,13 +18,33 @@ static GArray *new_lines(void) {
 
 // ---- the skeleton, also behind the board -------------------------------------------------------
 
+// A colour nearer to that of the ground.
+static void fade(uint8_t colour[4], double part) {
+    double ground = adw_style_manager_get_dark(adw_style_manager_get_default()) ? 36 : 248;
+    for (int i = 0; i < 3; i++) {
+        colour[i] = (uint8_t)(ground + part * (colour[i] - ground));
+    }
+}
+
+// What to do next, in a sentence.
+static void show_hint(StudioSketchPanel *panel) {
+    bool is_chosen = studio_sketch_first(panel->base->plant, panel->states) != FR_NONE;
+    bool is_stroke = panel->pen == STUDIO_PEN_STROKE;
+    const char *hint =
+        is_stroke   ? (is_chosen ? "Draw on the board. The wheel moves it, also while you draw."
+                                 : "Paint along branches in the skeleton to choose them.")
+        : is_chosen ? "Draw an arrow for the chosen branches. Choose nothing for the whole plant."
+                    : "Draw an arrow on the board. It is for the whole plant.";
+    gtk_label_set_text(GTK_LABEL(panel->hint), hint);
+}
+
 void studio_sketch_show_skeleton(StudioSketchPanel *panel) {
+    show_hint(panel);
     StudioSketchColours colours = colours_now();
     GArray *lines = new_lines(), *behind = new_lines();
-    studio_sketch_add_skeleton(lines, panel->base->plant, panel->states, &colours,
-                               MOST_INTERNODES);
-    colours.bare[3] = 90;
-    colours.selected[3] = 150;
+    studio_sketch_add_skeleton(lines, panel->base->plant, panel->states, &colours, MOST_INTERNODES);
+    fade(colours.bare, 0.4);
+    fade(colours.selected, 0.6);
     studio_sketch_add_skeleton(behind, panel->base->plant, panel->states, &colours,
                                MOST_INTERNODES);
     studio_sketch_view_set_lines(panel->skeleton, lines, NULL);
@@ -126,24 +146,17 @@ static void add_pushes(StudioSketchPanel *panel, GArray *lines, const double min
 static void show_sheet(StudioSketchPanel *panel, const StudioSketchColours *colours) {
     const StudioSketched *done = panel->done;
     GPtrArray *cells = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
-    double min[3] = {INFINITY, INFINITY, INFINITY}, max[3] = {-INFINITY, -INFINITY, -INFINITY};
     guint count = MAX(done->instances->len, 1);
     for (guint i = 0; i < count; i++) {
-        const FrPlant *plant = done->instances->len == 0 ? done->base->plant
-                                                         : g_ptr_array_index(done->instances, i);
+        const FrPlant *plant =
+            done->instances->len == 0 ? done->base->plant : g_ptr_array_index(done->instances, i);
         GArray *lines = new_lines();
-        double low[3], high[3];
         studio_sketch_add_instance(lines, plant, NULL, colours, MOST_INTERNODES / count);
         studio_sketch_add_leaves(lines, plant, colours, MOST_LEAVES / count);
-        studio_sketch_bounds(plant, NULL, low, high);
-        for (int k = 0; k < 3; k++) {
-            min[k] = fmin(min[k], low[k]);
-            max[k] = fmax(max[k], high[k]);
-        }
         g_ptr_array_add(cells, lines);
     }
     studio_sketch_sheet_choose(panel->sheet, MIN(panel->chosen, count - 1));
-    studio_sketch_sheet_show(panel->sheet, cells, min, max, panel->seed);
+    studio_sketch_sheet_show(panel->sheet, cells, panel->seed);
     g_ptr_array_unref(cells);
 }
 
@@ -164,10 +177,16 @@ void studio_sketch_show_instances(StudioSketchPanel *panel) {
     double min[3], max[3];
     studio_sketch_add_instance(lines, plant, is_varied ? done->stroke : NULL, &colours,
                                MOST_INTERNODES);
-    studio_sketch_bounds(plant, NULL, min, max);
+    studio_sketch_bounds(plant, min, max);
     add_hands(panel, above, &colours);
     add_pushes(panel, above, min, max, &colours);
     studio_sketch_view_set_lines(panel->strokes, lines, above);
+    if (!panel->is_framed) {
+        panel->is_framed = true;
+        studio_sketch_view_frame(panel->strokes);
+    } else if (!panel->is_playing) {
+        studio_sketch_view_keep_framed(panel->strokes);
+    }
     g_array_unref(lines);
     g_array_unref(above);
 }

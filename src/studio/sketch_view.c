@@ -13,11 +13,11 @@ static const double key_angle = 6 * G_PI / 180;
 struct _StudioSketchView {
     GtkWidget parent;
     StudioCamera camera;
-    double min[3], max[3]; // what is shown
     StudioCanvas canvas;
     GArray *layers[2];
     gboolean is_painting;
     bool is_pen;           // the drag paints
+    bool is_framed;        // it shows all, and the user has not changed that
     double drag_x, drag_y; // when it turned last
 };
 
@@ -70,6 +70,7 @@ static void on_drag(GtkGestureDrag *drag, double x, double y, StudioSketchView *
     if ((gtk_event_controller_get_current_event_state(GTK_EVENT_CONTROLLER(drag)) &
          GDK_SHIFT_MASK) != 0) {
         studio_camera_pan(&view->camera, -right, down);
+        view->is_framed = false;
     } else {
         studio_camera_orbit(&view->camera, -right * G_PI, down * G_PI);
     }
@@ -90,6 +91,7 @@ static gboolean on_scroll(GtkEventControllerScroll *scroll, double x, double y,
     (void)scroll;
     (void)x;
     studio_camera_zoom(&view->camera, pow(wheel_factor, y));
+    view->is_framed = false;
     turned(view);
     return TRUE;
 }
@@ -114,9 +116,10 @@ static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkMo
     case GDK_KEY_equal:
     case GDK_KEY_minus:
         studio_camera_zoom(&view->camera, key == GDK_KEY_minus ? wheel_factor : 1 / wheel_factor);
+        view->is_framed = false;
         break;
     case GDK_KEY_f:
-        studio_sketch_fit(&view->camera, view->min, view->max, aspect_of(view));
+        studio_sketch_view_frame(view);
         break;
     default: {
         gboolean is_taken = FALSE;
@@ -145,21 +148,23 @@ void studio_sketch_view_set_painting(StudioSketchView *view, gboolean is_paintin
     gtk_widget_set_cursor_from_name(GTK_WIDGET(view), is_painting ? "crosshair" : "grab");
 }
 
-void studio_sketch_view_frame(StudioSketchView *view, const double min[3], const double max[3]) {
-    for (int i = 0; i < 3; i++) {
-        view->min[i] = min[i];
-        view->max[i] = max[i];
+void studio_sketch_view_keep_framed(StudioSketchView *view) {
+    if (view->is_framed) {
+        studio_sketch_view_frame(view);
     }
-    studio_sketch_fit(&view->camera, min, max, aspect_of(view));
+}
+
+void studio_sketch_view_frame(StudioSketchView *view) {
+    view->is_framed = true;
+    studio_sketch_fit(&view->camera, view->layers, 2, aspect_of(view));
     gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
 static void studio_sketch_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot) {
     StudioSketchView *view = STUDIO_SKETCH_VIEW(widget);
     StudioLens lens = studio_sketch_view_lens(view);
-    graphene_rect_t area =
-        GRAPHENE_RECT_INIT(0, 0, (float)gtk_widget_get_width(widget),
-                           (float)gtk_widget_get_height(widget));
+    graphene_rect_t area = GRAPHENE_RECT_INIT(0, 0, (float)gtk_widget_get_width(widget),
+                                              (float)gtk_widget_get_height(widget));
     studio_canvas_draw(&view->canvas, widget, snapshot, &area, &lens, view->layers, 2);
 }
 

@@ -24,8 +24,10 @@ GtkWidget *studio_sketch_view_new(const char *label);
 void studio_sketch_view_set_lines(StudioSketchView *view, GArray *below, GArray *above);
 /// Whether the first button paints; else it turns. The others always turn.
 void studio_sketch_view_set_painting(StudioSketchView *view, gboolean is_painting);
-/// Shows all of a box.
-void studio_sketch_view_frame(StudioSketchView *view, const double min[3], const double max[3]);
+/// Shows all of its lines; from then on until the user zooms or moves it, …
+void studio_sketch_view_frame(StudioSketchView *view);
+/// … all of them are shown again.
+void studio_sketch_view_keep_framed(StudioSketchView *view);
 StudioCamera *studio_sketch_view_camera(StudioSketchView *view);
 /// How it is seen now.
 StudioLens studio_sketch_view_lens(StudioSketchView *view);

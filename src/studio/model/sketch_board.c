@@ -8,20 +8,35 @@
 
 static const double eye_distance = 1.4; // from the window, in its heights
 
-void studio_board_frame(StudioBoard *board, const double min[3], const double max[3],
-                        double aspect) {
-    double axes[3][3], extent[3] = {0, 0, 0}; // to the right, upwards, outwards
+// How far lines reach along the axes of the board, from the plant's origin.
+static void extents(const StudioBoard *board, const StudioLine *lines, size_t count, double low[3],
+                    double high[3]) {
+    double axes[3][3];
     studio_board_axes(board, axes[0], axes[1], axes[2]);
-    for (int i = 0; i < 3; i++) {
-        bool is_empty = !(max[i] >= min[i]);
-        board->centre[i] = is_empty ? 0 : 0.5 * (min[i] + max[i]);
+    for (size_t i = 0; i < 2 * count; i++) {
+        const float *at = i % 2 == 0 ? lines[i / 2].from : lines[i / 2].to;
         for (int k = 0; k < 3; k++) {
-            extent[k] += is_empty ? 0 : fabs(axes[k][i]) * (max[i] - min[i]);
+            double along = (double)at[0] * axes[k][0] + (double)at[1] * axes[k][1] +
+                           (double)at[2] * axes[k][2];
+            low[k] = i == 0 ? along : fmin(low[k], along);
+            high[k] = i == 0 ? along : fmax(high[k], along);
         }
     }
-    double largest = fmax(extent[1], extent[0] / fmax(aspect, 0.01));
-    board->size = largest > 1e-9 ? 1.2 * largest : 1;
-    board->reach = 0.55 * fmax(extent[2], 0.5 * board->size);
+}
+
+void studio_board_frame(StudioBoard *board, const StudioLine *lines, size_t count, double aspect) {
+    double low[3] = {0, 0, 0}, high[3] = {0, 0, 0}, axes[3][3];
+    studio_board_axes(board, axes[0], axes[1], axes[2]);
+    extents(board, lines, count, low, high);
+    for (int i = 0; i < 3; i++) {
+        board->centre[i] = 0;
+        for (int k = 0; k < 3; k++) {
+            board->centre[i] += 0.5 * (low[k] + high[k]) * axes[k][i];
+        }
+    }
+    double largest = fmax(high[1] - low[1], (high[0] - low[0]) / fmax(aspect, 0.01));
+    board->size = largest > 1e-9 ? 1.15 * largest : 1;
+    board->reach = fmax(0.6 * (high[2] - low[2]), 0.3 * board->size);
     board->height = 0;
 }
 

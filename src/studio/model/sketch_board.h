@@ -19,9 +19,9 @@ typedef struct StudioBoard {
     double reach;     ///< m
 } StudioBoard;
 
-/// A board that shows a box at a width over height of `aspect`, and reaches through it.
-void studio_board_frame(StudioBoard *board, const double min[3], const double max[3],
-                        double aspect);
+/// A board that shows all lines at a width over height of `aspect`, and reaches through them.
+/// Without any it is a metre high.
+void studio_board_frame(StudioBoard *board, const StudioLine *lines, size_t count, double aspect);
 /// Moves the plane, as far as the board reaches.
 void studio_board_raise(StudioBoard *board, double by);
 /// Unit vectors to the right, upwards on the board, and towards who draws.

@@ -134,8 +134,8 @@ static bool add_mark(StudioDocument *document, StudioSketchOf *of, const char *m
     for (uint32_t p = after; p != FR_NONE; p = fr_contents_sibling(contents, p)) {
         after = p;
     }
-    bool is_done = studio_document_splice_one(
-        document, fr_contents_insert(contents, 0, after, xml), name, NULL);
+    bool is_done = studio_document_splice_one(document, fr_contents_insert(contents, 0, after, xml),
+                                              name, NULL);
     if (is_done) {
         g_free(of->varied);
         of->varied = g_strdup(id);

@@ -7,7 +7,12 @@
 #include "studio/model/document.h"
 
 /// What is drawn on the board.
-typedef enum StudioPen { STUDIO_PEN_STROKE, STUDIO_PEN_WIND, STUDIO_PEN_SUN, STUDIO_PEN_RAIN } StudioPen;
+typedef enum StudioPen {
+    STUDIO_PEN_STROKE,
+    STUDIO_PEN_WIND,
+    STUDIO_PEN_SUN,
+    STUDIO_PEN_RAIN
+} StudioPen;
 
 /// A plant that is sketched over, and its variation; ids.
 typedef struct StudioSketchOf {

@@ -12,14 +12,12 @@ enum { ORDERS = 32 };
 static const float thin = 1.1f, thick = 4.2f; // pixels
 
 StudioSketchColours studio_sketch_colours(bool is_dark) {
-    static const StudioSketchColours dark = {{150, 158, 146, 255}, {84, 160, 255, 255},
-                                             {255, 182, 64, 255},  {120, 220, 130, 255},
-                                             {245, 245, 240, 255}, {255, 120, 110, 255},
-                                             {110, 160, 80, 150}};
-    static const StudioSketchColours light = {{110, 114, 104, 255}, {20, 96, 220, 255},
-                                              {214, 120, 0, 255},   {28, 136, 56, 255},
-                                              {30, 30, 34, 255},    {204, 40, 40, 255},
-                                              {84, 140, 60, 150}};
+    static const StudioSketchColours dark = {
+        {150, 158, 146, 255}, {84, 160, 255, 255},  {255, 182, 64, 255}, {120, 220, 130, 255},
+        {245, 245, 240, 255}, {255, 120, 110, 255}, {110, 160, 80, 150}};
+    static const StudioSketchColours light = {
+        {110, 114, 104, 255}, {20, 96, 220, 255}, {214, 120, 0, 255}, {28, 136, 56, 255},
+        {30, 30, 34, 255},    {204, 40, 40, 255}, {84, 140, 60, 150}};
     return is_dark ? dark : light;
 }
 
@@ -100,9 +98,8 @@ void studio_sketch_states(const FrPlant *plant, const FrSelection *selection, St
                           uint32_t component, uint8_t *states) {
     for (uint32_t a = 0; a < plant->axes.count; a++) {
         bool is_chosen = chosen == STUDIO_CHOSEN_ALL || plant->axes.component[a] == component;
-        states[a] = chosen == STUDIO_CHOSEN_PAINTED
-                        ? (uint8_t)fr_selection_state(selection, a)
-                        : (is_chosen ? FR_SELECTED : FR_UNSELECTED);
+        states[a] = chosen == STUDIO_CHOSEN_PAINTED ? (uint8_t)fr_selection_state(selection, a)
+                                                    : (is_chosen ? FR_SELECTED : FR_UNSELECTED);
     }
 }
 
@@ -149,9 +146,8 @@ void studio_sketch_add_leaves(GArray *lines, const FrPlant *plant,
         fr_plant_organ_pose(plant, i, &at, &turn);
         const FrShape *shape = &g_array_index(plant->shapes, FrShape, organs->shape[i]);
         float length = organs->scale[i] * leaf_length(shape);
-        add_line(lines, at,
-                 glms_vec3_add(at, glms_vec3_scale(fr_frame_heading(turn), length)), 2.2f,
-                 colours->leaf);
+        add_line(lines, at, glms_vec3_add(at, glms_vec3_scale(fr_frame_heading(turn), length)),
+                 2.2f, colours->leaf);
     }
 }
 
@@ -208,45 +204,69 @@ uint32_t studio_sketch_first(const FrPlant *plant, const uint8_t *states) {
     return FR_NONE;
 }
 
-void studio_sketch_bounds(const FrPlant *plant, const uint8_t *states, double min[3],
-                          double max[3]) {
-    bool is_part = states != NULL && studio_sketch_first(plant, states) != FR_NONE;
+void studio_sketch_bounds(const FrPlant *plant, double min[3], double max[3]) {
+    vec3s low, high;
+    fr_plant_bounds(plant, &low, &high);
     for (int i = 0; i < 3; i++) {
-        min[i] = INFINITY;
-        max[i] = -INFINITY;
-    }
-    for (uint32_t i = 0; i < plant->nodes.count; i++) {
-        uint32_t axis = plant->nodes.axis[i];
-        if (is_shown(plant, i) && (!is_part || states[axis] == FR_SELECTED)) {
-            extend(min, max, begin_of(plant, i));
-            extend(min, max, plant->nodes.position[i]);
-        }
+        min[i] = (double)low.raw[i];
+        max[i] = (double)high.raw[i];
     }
 }
 
 StudioLens studio_sketch_lens(const StudioCamera *camera, double aspect) {
     mat4s project = studio_camera_projection(camera, aspect, camera->distance);
-    return (StudioLens){glms_mat4_mul(project, studio_camera_view(camera)),
-                        (float)camera->distance, (float)(0.02 * camera->distance)};
+    return (StudioLens){glms_mat4_mul(project, studio_camera_view(camera)), (float)camera->distance,
+                        (float)(0.02 * camera->distance)};
 }
 
-void studio_sketch_fit(StudioCamera *camera, const double min[3], const double max[3],
-                       double aspect) {
-    studio_camera_frame(camera, min, max, aspect);
-    for (int pass = 0; pass < 3 && max[0] >= min[0]; pass++) {
-        StudioLens lens = studio_sketch_lens(camera, aspect);
-        float widest = 0;
-        for (int corner = 0; corner < 8; corner++) {
-            vec4s at = {{(float)((corner & 1) != 0 ? max[0] : min[0]),
-                         (float)((corner & 2) != 0 ? max[1] : min[1]),
-                         (float)((corner & 4) != 0 ? max[2] : min[2]), 1}};
-            vec4s seen = glms_mat4_mulv(lens.project, at);
-            if (seen.w > 0) {
-                widest = fmaxf(widest, fmaxf(fabsf(seen.x), fabsf(seen.y)) / seen.w);
+// Where lines are in a picture, from −1 to 1: left, bottom, right, top. False: nowhere.
+static bool range_of(const StudioLens *lens, GArray *const *layers, size_t count, double range[4]) {
+    bool is_any = false;
+    for (size_t layer = 0; layer < count; layer++) {
+        for (guint i = 0; layers[layer] != NULL && i < 2 * layers[layer]->len; i++) {
+            const StudioLine *line = &g_array_index(layers[layer], StudioLine, i / 2);
+            const float *end = i % 2 == 0 ? line->from : line->to;
+            vec4s at = glms_mat4_mulv(lens->project, (vec4s){{end[0], end[1], end[2], 1}});
+            for (int k = 0; k < 2 && at.w > 0; k++) {
+                double place = (double)(at.raw[k] / at.w);
+                range[k] = is_any ? fmin(range[k], place) : place;
+                range[k + 2] = is_any ? fmax(range[k + 2], place) : place;
             }
+            is_any = is_any || at.w > 0;
         }
-        if (widest > 0) {
-            studio_camera_zoom(camera, (double)widest / 0.94);
+    }
+    return is_any;
+}
+
+void studio_sketch_fit(StudioCamera *camera, GArray *const *layers, size_t count, double aspect) {
+    double min[3] = {INFINITY, INFINITY, INFINITY}, max[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t layer = 0; layer < count; layer++) {
+        for (guint i = 0; layers[layer] != NULL && i < layers[layer]->len; i++) {
+            const StudioLine *line = &g_array_index(layers[layer], StudioLine, i);
+            extend(min, max, (vec3s){{line->from[0], line->from[1], line->from[2]}});
+            extend(min, max, (vec3s){{line->to[0], line->to[1], line->to[2]}});
+        }
+    }
+    studio_camera_frame(camera, min, max, aspect);
+    for (int pass = 0; pass < 4; pass++) {
+        StudioLens lens = studio_sketch_lens(camera, aspect);
+        double range[4];
+        if (!range_of(&lens, layers, count, range)) {
+            return;
+        }
+        studio_camera_pan(camera, 0.25 * aspect * (range[0] + range[2]),
+                          0.25 * (range[1] + range[3]));
+        double half = 0.5 * fmax(range[2] - range[0], range[3] - range[1]);
+        studio_camera_zoom(camera, half > 1e-6 ? half / 0.9 : 1);
+    }
+}
+
+void studio_sketch_add_chosen(GArray *lines, const FrPlant *plant, const uint8_t *states) {
+    static const uint8_t white[4] = {255, 255, 255, 255};
+    bool is_part = states != NULL && studio_sketch_first(plant, states) != FR_NONE;
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        if (is_shown(plant, i) && (!is_part || states[plant->nodes.axis[i]] == FR_SELECTED)) {
+            add_line(lines, begin_of(plant, i), plant->nodes.position[i], 1, white);
         }
     }
 }

@@ -45,13 +45,12 @@ void studio_sketch_add_stroke_line(GArray *lines, const FrStroke *stroke, const 
 /// An arrow.
 void studio_sketch_add_arrow(GArray *lines, const float from[3], const float to[3], float width,
                              const uint8_t colour[4]);
-/// The box around a plant, or around its selected branches if there are any; min > max if it is
-/// empty. `states` NULL: none is selected.
-void studio_sketch_bounds(const FrPlant *plant, const uint8_t *states, double min[3],
-                          double max[3]);
-/// Frames a box as studio_camera_frame() does, and as near as its corners allow.
-void studio_sketch_fit(StudioCamera *camera, const double min[3], const double max[3],
-                       double aspect);
+/// The box around a plant; min > max if it is empty.
+void studio_sketch_bounds(const FrPlant *plant, double min[3], double max[3]);
+/// Selected branches, or all if none is or `states` is NULL.
+void studio_sketch_add_chosen(GArray *lines, const FrPlant *plant, const uint8_t *states);
+/// Looks at lines (of arrays, NULL: none) from as near as all of them can be seen; the angles stay.
+void studio_sketch_fit(StudioCamera *camera, GArray *const *layers, size_t count, double aspect);
 /// The lens of a camera.
 StudioLens studio_sketch_lens(const StudioCamera *camera, double aspect);
 /// The first branch that is selected, FR_NONE.

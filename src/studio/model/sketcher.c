@@ -127,8 +127,8 @@ static FrStatus grow_base(StudioSketcher *sketcher, const FrDocument *document, 
         fr_plant_free(built.plant);
         return status;
     }
-    bool is_same = sketcher->grown != NULL &&
-                   fr_plant_digest(sketcher->grown) == fr_plant_digest(built.plant);
+    bool is_same =
+        sketcher->grown != NULL && fr_plant_digest(sketcher->grown) == fr_plant_digest(built.plant);
     if (!is_same) { // who has selected branches of it keeps them where it is the same
         studio_base_unref(sketcher->base);
         sketcher->base = g_atomic_rc_box_new0(StudioBase);
