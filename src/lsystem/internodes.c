@@ -63,11 +63,11 @@ static inline void write_rows(versors *to, FrLanes4 lanes, uint32_t count) {
 FR_LANES_CLONES
 versors fr_lbuilder_frame(const double heading[3], const double left[3]) {
     vec3s z = fr_lturtle_world(heading), x = fr_lturtle_world(left);
-    FrLanes none = {0};
+    FrLanes none = {0}; // subtracted, it keeps also the sign of a zero
     versors frame;
     write_rows(&frame,
-               frame_of((FrLanes3){z.x + none, z.y + none, z.z + none},
-                        (FrLanes3){x.x + none, x.y + none, x.z + none}),
+               frame_of((FrLanes3){z.x - none, z.y - none, z.z - none},
+                        (FrLanes3){x.x - none, x.y - none, x.z - none}),
                1);
     return frame;
 }
