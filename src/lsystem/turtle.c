@@ -134,7 +134,7 @@ static void close_segment(FrLturtle *turtle) {
     FrLpose *pose = &turtle->pose;
     FrLbuilder *builder = turtle->builder;
     turtle->has_segment = false;
-    if (builder == NULL) {
+    if (builder == NULL || builder->status != FR_OK) {
         return;
     }
     float width = turtle->view->tapers ? pose->width : turtle->start_width;

@@ -42,8 +42,21 @@ static void check_drawing(const char *text, uint64_t steps, const char *says) {
 }
 
 static void drawing(void) {
-    check_drawing("w : [\np1 : [ -> [[\n", 20, "the limit 'brackets'");
+    check_drawing("w : [\np1 : [ -> [[\n", 17, "the limit 'brackets'");
     check_drawing("w : {.\np1 : . -> ..\n", 22, "the limit 'corners'");
+}
+
+static void internodes(void) {
+    Derived d = begin("w : F\np1 : F -> FF\n", 1);
+    FrPlant *plant;
+    step(&d, 8);
+    d.context.limits.nodes = 100;
+    g_assert_cmpint(fr_lderivation_plant(d.derivation, &d.context, &plant, NULL), ==, FR_ERR_LIMIT);
+    g_assert_null(plant);
+    g_assert_cmpuint(fr_diags_count(d.context.diags), ==, 1);
+    g_assert_cmpstr(fr_diags_get(d.context.diags, 0)->code, ==, "limit-nodes");
+    g_assert_nonnull(strstr(fr_diags_get(d.context.diags, 0)->text, "module 101"));
+    end(&d);
 }
 
 /// A step fails with the code; the string stays.
@@ -79,6 +92,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/lsystem/limits/a text has so many variables, functions, productions",
                     reading);
     g_test_add_func("/lsystem/limits/a drawing has so many brackets and corners", drawing);
+    g_test_add_func("/lsystem/limits/too many internodes are told of once", internodes);
     g_test_add_func("/lsystem/limits/a step has so many bytes and calls", deriving);
     return g_test_run();
 }
