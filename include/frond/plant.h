@@ -144,6 +144,8 @@ typedef struct FrFinish {
     float relief;                          ///< depth of the furrows, in radii
     float relief_count;                    ///< how many around
     float relief_stretch;                  ///< how much longer than wide
+    /// Material of its flat and broken ends and of the inside of a hollow axis, + 1; 0: its own.
+    uint32_t face;
 } FrFinish;
 
 /// What the edge of a blade is like.

@@ -159,14 +159,15 @@ static void map_rest(FrScion *scion, FrPlant *host) {
     const FrPlant *plant = scion->plant;
     scion->finishes = g_new(uint32_t, plant->finishes->len + 1);
     for (guint i = 0; i < plant->finishes->len; i++) {
-        const FrFinish *finish = &g_array_index(plant->finishes, FrFinish, i);
+        FrFinish finish = g_array_index(plant->finishes, FrFinish, i);
+        finish.face = finish.face > 0 ? mapped(scion->materials, finish.face - 1) + 1 : 0;
         guint known = 0;
         while (known < host->finishes->len &&
-               memcmp(&g_array_index(host->finishes, FrFinish, known), finish, sizeof *finish)) {
+               memcmp(&g_array_index(host->finishes, FrFinish, known), &finish, sizeof finish)) {
             known++;
         }
         scion->finishes[i] =
-            known < host->finishes->len ? known : fr_plant_add_finish(host, finish);
+            known < host->finishes->len ? known : fr_plant_add_finish(host, &finish);
     }
     if (plant->deformers->len == 0) {
         return;

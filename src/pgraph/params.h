@@ -144,7 +144,10 @@
       "sags under its weight as wood so stiff: green wood 5 to 12; 0: not at all")                 \
     X(NUMBER, load, "0", 0, 1000, "", "", "weight of what it bears over its own, for sagging")     \
     X(REAL, pipe_exponent, "2.5", 1, 4, "", "",                                                    \
-      "for radius-mode=pipe: 2 keeps the cross-section where stems divide, 3 is Murray's")
+      "for radius-mode=pipe: 2 keeps the cross-section where stems divide, 3 is Murray's")         \
+    X(TEXT, face_material, "", 0, 0, "", "",                                                       \
+      "id of the material of a flat or broken end and of the inside of a hollow stem; empty: its " \
+      "own")
 
 /// How a Tree places its branches. From azimuth on, evaluated for each branch.
 #define FR_BRANCHING_PARAMS(X)                                                                     \

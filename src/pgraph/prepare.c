@@ -227,8 +227,17 @@ static FrFinishParams finish_of(const FrPrototype *prototype) {
 #undef FR_TAKE
 }
 
+// The material of a stem's ends as FrFinish has it.
+static uint32_t face_of(const FrPgraph *graph, const FrStemParams *stem, FrPlant *plant) {
+    const char *name = stem->face_material != NULL ? stem->face_material : "";
+    guint known = GPOINTER_TO_UINT(g_hash_table_lookup(graph->material_names, name));
+    return known == 0
+               ? 0
+               : fr_plant_add_material(plant, g_ptr_array_index(graph->materials, known - 1)) + 1;
+}
+
 // What is plain has no finish; else there are two, the odd one that of what is broken.
-static uint32_t add_finishes(FrPlant *plant, int tip, const FrFinishParams *params) {
+static uint32_t add_finishes(FrPlant *plant, int tip, uint32_t face, const FrFinishParams *params) {
     FrFinish finish = {
         .cap = tip > FR_TIP_FLAT ? (uint32_t)(tip - FR_TIP_FLAT) : FR_CAP_FLAT,
         .junction = (uint32_t)params->junction,
@@ -243,10 +252,11 @@ static uint32_t add_finishes(FrPlant *plant, int tip, const FrFinishParams *para
         .relief = (float)params->relief,
         .relief_count = (float)params->relief_count,
         .relief_stretch = (float)params->relief_stretch,
+        .face = face,
     };
     bool is_plain = finish.cap == FR_CAP_FLAT && params->break_tip == 0 && finish.junction == 0 &&
-                    finish.is_open == 0 && finish.buttresses == 0 && !(finish.wall > 0) &&
-                    !(finish.relief > 0);
+                    finish.face == 0 && finish.is_open == 0 && finish.buttresses == 0 &&
+                    !(finish.wall > 0) && !(finish.relief > 0);
     if (is_plain) {
         return FR_NONE;
     }
@@ -283,7 +293,7 @@ static FrStatus prepare_stem(FrPrepared *made, const FrPgraph *graph, const FrPr
     fr_prepare_pieces(made, stem->primitive, size, stem->detail, plant);
     made->finished = finish_of(prototype);
     if (stem->primitive <= FR_PRIMITIVE_AREA && stem->course != FR_COURSE_STEPS) {
-        made->finish = add_finishes(plant, stem->tip, &made->finished);
+        made->finish = add_finishes(plant, stem->tip, face_of(graph, stem, plant), &made->finished);
     }
     made->along = fr_along_find(stem);
     made->is_ahead = stem->length_mode == FR_SIZE_TO_OBSTACLE;

@@ -56,16 +56,20 @@ static void count_inside(FrTube *tube, uint64_t columns, uint64_t sides) {
 
 void fr_count_ends(const FrPlan *plan, FrTube *tube) {
     uint64_t columns = plan->sections[tube->section].count, sides = columns - 1;
+    uint64_t before = tube->indices;
     if (tube->start == FR_START_FREE && !tube->is_open) {
         count_disc(tube, sides);
     }
+    uint64_t base = tube->indices - before; // written last
     tube->wall_rings = 0;
+    tube->face_indices = 0;
     if (tube->end != FR_END_FLAT) {
         return;
     }
     bool is_broken = tube->cap == FR_CAP_BROKEN;
     tube->wall_rings = tube->cap == FR_CAP_ROUND ? dome_rings(plan) : is_broken ? 1 : 0;
     count(tube, tube->wall_rings * columns, tube->wall_rings * 2 * sides);
+    tube->face_index = tube->indices - base;
     if (tube->cap == FR_CAP_ROUND) {
         count(tube, sides, sides);
     } else if (is_hollow(tube)) {
@@ -74,6 +78,9 @@ void fr_count_ends(const FrPlan *plan, FrTube *tube) {
         count(tube, 3 * TRIANGLES_OF_BREAK * sides, TRIANGLES_OF_BREAK * sides);
     } else if (tube->cap == FR_CAP_FLAT) {
         count_disc(tube, sides);
+    }
+    if (tube->face > 0 && tube->cap != FR_CAP_ROUND) {
+        tube->face_indices = tube->indices - base - tube->face_index;
     }
 }
 

@@ -222,11 +222,11 @@ FrStatus fr_job_begin(FrSkinJob *job, const FrPlant *plant, const FrSkinParams *
     return status;
 }
 
-bool fr_job_has_welds(const FrSkinJob *job) {
+bool fr_job_is_patched(const FrSkinJob *job) {
     const GArray *tubes = job->wood->plan.tubes;
     for (uint32_t i = 0; i < tubes->len; i++) {
         const FrTube *tube = &g_array_index(tubes, FrTube, i);
-        if (tube->is_welded && tube->rings > 0) {
+        if ((tube->is_welded || tube->face_indices > 0) && tube->rings > 0) {
             return true;
         }
     }

@@ -42,8 +42,9 @@ void fr_job_clear(FrSkinJob *job);
 FR_MUST_USE FrStatus fr_job_check(const FrSkinJob *job, uint64_t vertices, uint64_t indices);
 /// Room for a mesh of its parts; NULL, with a diagnostic, if there is none.
 FrMesh *fr_job_mesh(const FrSkinJob *job, uint64_t vertices, uint64_t indices);
-/// Whether any branch is to be welded to its parent. Then a mesh is written whole.
-bool fr_job_has_welds(const FrSkinJob *job);
+/// Whether any branch is welded to its parent, or has an end of another material: patch.h. Then a
+/// mesh is written whole.
+bool fr_job_is_patched(const FrSkinJob *job);
 /// Writes all of it. FR_CANCELLED or FR_ERR_MACHINE or, of welds, FR_ERR_LIMIT may leave a mesh.
 FR_MUST_USE FrStatus fr_job_write(FrSkinJob *job, FrMesh **mesh);
 /// Reports what was noted about deformations.

@@ -30,7 +30,7 @@ void fr_skin_state_free(FrSkinState *state) {
         return;
     }
     fr_job_clear(&state->job);
-    fr_mesh_free(state->welded);
+    fr_mesh_free(state->patched);
     g_free(state->rooms);
     g_free(state->runs);
     g_clear_pointer(&state->poses, g_atomic_rc_box_release);
@@ -140,16 +140,10 @@ static void make_blocks(FrSkinState *state) {
     state->slot_blocks[slots] = state->block_count;
 }
 
-// Where tubes are one with others a piece is more than itself, so all is made before the rooms are.
-static FrStatus weld_all(FrSkinState *state) {
-    FrStatus status = fr_job_write(&state->job, &state->welded);
-    if (status == FR_OK) {
-        memcpy(state->job.parts, state->welded->parts,
-               state->job.part_count * sizeof *state->job.parts);
-        state->job.vertices = state->welded->vertex_count;
-        state->job.indices = state->welded->index_count;
-    }
-    return status;
+// Where tubes are one with others or end in another part, a piece is more than itself, so all is
+// made before the rooms are.
+static FrStatus patch_all(FrSkinState *state) {
+    return fr_job_write(&state->job, &state->patched);
 }
 
 FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
@@ -173,8 +167,8 @@ FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
     state->limits = context->limits;
     FrStatus status = fr_job_begin(&state->job, plant, &skin->params, skin->up,
                                    is_same ? &before->job : NULL, context);
-    if (status == FR_OK && fr_job_has_welds(&state->job)) {
-        status = weld_all(state);
+    if (status == FR_OK && fr_job_is_patched(&state->job)) {
+        status = patch_all(state);
     }
     if (status == FR_OK) {
         state->slots = fr_job_slots(&state->job);
@@ -184,7 +178,7 @@ FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
         fr_skin_drop(skin);
         return status;
     }
-    if (state->job.scopes == NULL && state->welded == NULL) {
+    if (state->job.scopes == NULL && state->patched == NULL) {
         digest_all(state, before);
     }
     note_shapes(state, before);

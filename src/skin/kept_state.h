@@ -25,7 +25,7 @@ enum { FR_BLOCK_PIECES = 64 };
 typedef struct FrSkinState {
     FrSkinJob job;
     uint32_t slots;
-    FrMesh *welded;        ///< what is to be copied to the rooms as it is; NULL: pieces are written
+    FrMesh *patched;       ///< what is to be copied to the rooms as it is; NULL: pieces are written
     FrRoom *rooms;         ///< two a slot: of wood, of organs
     bool is_known;         ///< not where deformations act: then everything is written
     FrDigest *runs;        ///< by run, with its places and rooms

@@ -204,6 +204,7 @@ static void set_end(FrPlan *plan, uint32_t axis) {
     } else if (finish != NULL && !tube->is_point_sets) {
         tube->cap = (uint8_t)finish->cap;
         tube->cap_height = finish->cap_height;
+        tube->face = finish->face < plan->slots && finish->face != tube->slot ? finish->face : 0;
         tube->wall = finish->cap != FR_CAP_ROUND ? finish->wall : 0.0F;
     }
 }

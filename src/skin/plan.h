@@ -54,13 +54,15 @@ typedef struct FrTube {
     bool is_welded;       ///< its first ring is to be one with the parent's surface: see weld.c
     uint8_t start, end;
     bool is_point_sets;
-    bool has_shoulder;   ///< FR_END_POINT: blunt, so a ring shortly before the tip
-    uint8_t cap;         ///< FrCap, for FR_END_FLAT
-    bool is_open;        ///< its base, for FR_START_FREE
-    bool is_rough;       ///< its rings are not those of its section: ridges or relief
-    uint32_t wall_rings; ///< of these: what its own end adds, see cap.c
-    float cap_height;    ///< radii
-    float wall;          ///< radii, 0: solid
+    bool has_shoulder;                 ///< FR_END_POINT: blunt, so a ring shortly before the tip
+    uint8_t cap;                       ///< FrCap, for FR_END_FLAT
+    bool is_open;                      ///< its base, for FR_START_FREE
+    bool is_rough;                     ///< its rings are not those of its section: ridges or relief
+    uint32_t wall_rings;               ///< of these: what its own end adds, see cap.c
+    float cap_height;                  ///< radii
+    float wall;                        ///< radii, 0: solid
+    uint32_t face;                     ///< slot of the material of its end; 0: its own
+    uint64_t face_index, face_indices; ///< of the triangles of that, from first_index on
     uint64_t first_vertex, first_index; ///< in the part
     uint64_t vertices, indices;
 } FrTube;

@@ -275,9 +275,9 @@ static void note_unchanged(FrSkin *skin) {
 }
 
 // Copies a mesh that is made already into the rooms.
-static void write_welded(const Writing *writing) {
+static void write_patched(const Writing *writing) {
     const FrSkinState *now = writing->now;
-    const FrMesh *mesh = now->welded;
+    const FrMesh *mesh = now->patched;
     for (uint32_t i = 0; i < 2 * fr_job_slots(&now->job); i++) {
         uint32_t index = now->job.part_of[i % 2 * fr_job_slots(&now->job) + i / 2];
         if (index == FR_NONE) {
@@ -316,9 +316,9 @@ void fr_skin_write(FrSkin *skin, const FrPlant *plant, const FrContext *context)
     FrSkinJob *job = &skin->planned->job;
     int workers = fr_pool_threads(context->pool);
     Writing writing = begin_writing(skin, workers);
-    if (skin->planned->welded != NULL) {
-        write_welded(&writing);
-        g_clear_pointer(&skin->planned->welded, fr_mesh_free);
+    if (skin->planned->patched != NULL) {
+        write_patched(&writing);
+        g_clear_pointer(&skin->planned->patched, fr_mesh_free);
     } else {
         write_pieces(skin, &writing, context);
     }

@@ -3,7 +3,7 @@
 
 #include "skin/job.h"
 #include "skin/mesh.h"
-#include "skin/weld.h"
+#include "skin/patch.h"
 
 #include <string.h>
 
@@ -97,6 +97,16 @@ static void set_bounds(const Writing *writing, int workers, FrMesh *mesh) {
     g_free(boxes);
 }
 
+static FrStatus patch_mesh(FrSkinJob *job, FrMesh **mesh) {
+    FrPatch patch;
+    fr_patch_init(&patch, job, *mesh);
+    fr_face_ends(&patch);
+    FrStatus status = fr_weld(&patch);
+    status = status == FR_OK ? fr_patch_write(&patch, mesh) : status;
+    fr_patch_clear(&patch);
+    return status;
+}
+
 FrStatus fr_job_write(FrSkinJob *job, FrMesh **mesh) {
     const FrContext *context = job->wood->plan.context;
     uint32_t slots = fr_job_slots(job);
@@ -121,7 +131,7 @@ FrStatus fr_job_write(FrSkinJob *job, FrMesh **mesh) {
     }
     g_free(writing.slabs);
     g_free(writing.boxes);
-    return status == FR_OK ? fr_weld(job, mesh) : status;
+    return status == FR_OK && fr_job_is_patched(job) ? patch_mesh(job, mesh) : status;
 }
 
 FrStatus fr_skin_plant(const FrPlant *plant, const FrSkinParams *params, FrUpAxis up,

@@ -7,8 +7,6 @@
 // as it was: on a collar that reaches into its parent.
 #include "skin/weld.h"
 
-#include "skin/mesh.h"
-
 #include <cglm/struct.h>
 
 #include <math.h>
@@ -19,19 +17,11 @@
 #define CLEAR_RINGS 0.08F
 enum { FEET_MOST = 129 };
 
-/// What is added to a part.
-typedef struct FrAddition {
-    GArray *vertices; ///< FrVertex; NULL: nothing
-    GArray *indices;  ///< uint32_t, from the part's first vertex
-} FrAddition;
-
 typedef struct FrWelding {
-    const FrSkinJob *job;
-    FrMesh *mesh;
-    uint32_t *tube_of;     ///< by node, FR_NONE
-    FrWeldGrid *grids;     ///< by tube, as they are needed
-    uint8_t *is_gone;      ///< by triangle of the mesh
-    FrAddition *additions; ///< by part
+    FrPatch *patch;
+    const FrPlan *plan;
+    uint32_t *tube_of; ///< by node, FR_NONE
+    FrWeldGrid *grids; ///< by tube, as they are needed
 } FrWelding;
 
 /// The branch's first ring on its parent, and its hole.
@@ -43,20 +33,16 @@ typedef struct FrWeldHole {
 } FrWeldHole;
 
 static const FrTube *tube_at(const FrWelding *welding, uint32_t tube) {
-    return &g_array_index(welding->job->wood->plan.tubes, FrTube, tube);
-}
-
-static uint32_t part_of(const FrWelding *welding, const FrTube *tube) {
-    return welding->job->part_of[tube->slot];
+    return &g_array_index(welding->plan->tubes, FrTube, tube);
 }
 
 static FrVertex *vertices_of(const FrWelding *welding, const FrTube *tube) {
-    const FrMeshPart *part = &welding->mesh->parts[part_of(welding, tube)];
-    return welding->mesh->vertices + part->first_vertex + tube->first_vertex;
+    const FrMeshPart *part = fr_patch_part(welding->patch, tube->slot);
+    return welding->patch->mesh->vertices + part->first_vertex + tube->first_vertex;
 }
 
 static uint32_t columns_of(const FrWelding *welding, const FrTube *tube) {
-    return welding->job->wood->plan.sections[tube->section].count;
+    return welding->plan->sections[tube->section].count;
 }
 
 // ---- the hole ----------------------------------------------------------------------------------
@@ -112,7 +98,7 @@ static uint64_t triangles_at(const FrWelding *welding, const FrTube *tube, int32
                              uint32_t ring) {
     int32_t sides = (int32_t)columns_of(welding, tube) - 1;
     uint64_t at = (uint64_t)(((column % sides) + sides) % sides);
-    uint64_t first = welding->mesh->parts[part_of(welding, tube)].first_index + tube->first_index;
+    uint64_t first = fr_patch_part(welding->patch, tube->slot)->first_index + tube->first_index;
     return first / 3 + 2 * ((uint64_t)ring * (uint64_t)sides + at);
 }
 
@@ -121,10 +107,10 @@ static bool dig(FrWelding *welding, const FrTube *tube, const FrWeldHole *hole, 
     for (uint32_t ring = hole->bottom; ring < hole->top; ring++) {
         for (int32_t column = hole->left; column < hole->right; column++) {
             uint64_t at = triangles_at(welding, tube, column, ring);
-            if (welding->is_gone[at] != 0) {
+            if (welding->patch->is_gone[at] != 0) {
                 return false;
             }
-            welding->is_gone[at] = welding->is_gone[at + 1] = take ? 1 : 0;
+            welding->patch->is_gone[at] = welding->patch->is_gone[at + 1] = take ? 1 : 0;
         }
     }
     return true;
@@ -174,7 +160,7 @@ static void walk_feet(const FrWeldHole *hole, FrVertex *vertices, FrWeldPoint *p
 // Deformed space may be inside out: then so are the quads that go.
 static bool is_turned(const FrWelding *welding, const FrTube *tube, const FrWeldHole *hole) {
     const uint32_t *corner =
-        welding->mesh->indices + 3 * triangles_at(welding, tube, hole->left, hole->bottom);
+        welding->patch->mesh->indices + 3 * triangles_at(welding, tube, hole->left, hole->bottom);
     return corner[1] != corner[0] + 1;
 }
 
@@ -189,19 +175,12 @@ static bool add_patch(FrWelding *welding, const FrTube *tube, const FrWeldGrid *
     if (count == 0) {
         return false;
     }
-    uint32_t part = part_of(welding, tube);
-    FrAddition *addition = &welding->additions[part];
-    if (addition->vertices == NULL) {
-        addition->vertices = g_array_new(FALSE, FALSE, sizeof(FrVertex));
-        addition->indices = g_array_new(FALSE, FALSE, sizeof(uint32_t));
-    }
-    uint32_t first = (uint32_t)welding->mesh->parts[part].vertex_count + addition->vertices->len;
     bool turned = is_turned(welding, tube, hole);
-    g_array_append_vals(addition->vertices, vertices, rim + feet);
+    uint32_t first = fr_patch_add(welding->patch, tube->slot, vertices, rim + feet);
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t corner[3] = {first + triangles[i][0], first + triangles[i][turned ? 2 : 1],
-                              first + triangles[i][turned ? 1 : 2]};
-        g_array_append_vals(addition->indices, corner, 3);
+        const uint32_t corner[3] = {first + triangles[i][0], first + triangles[i][turned ? 2 : 1],
+                                    first + triangles[i][turned ? 1 : 2]};
+        fr_patch_add_triangle(welding->patch, tube->slot, corner);
     }
     return true;
 }
@@ -229,7 +208,7 @@ static void move_collar(const FrTube *tube, uint32_t columns, const FrWeldHole *
 }
 
 static void weld_tube(FrWelding *welding, const FrTube *tube) {
-    const FrPlan *plan = &welding->job->wood->plan;
+    const FrPlan *plan = welding->plan;
     uint32_t parent = welding->tube_of[plan->plant->axes.bearer[tube->axis]];
     uint32_t columns = columns_of(welding, tube);
     if (parent == FR_NONE || columns - 1 >= FEET_MOST) {
@@ -250,106 +229,6 @@ static void weld_tube(FrWelding *welding, const FrTube *tube) {
     }
 }
 
-// ---- the mesh without what has gone ------------------------------------------------------------
-
-/// Which vertices of a part are still used; answers how many indices are left.
-static uint64_t mark_used(const FrWelding *welding, const FrMeshPart *part, uint8_t *is_used) {
-    uint64_t left = 0;
-    for (uint64_t i = part->first_index; i < part->first_index + part->index_count; i += 3) {
-        if (welding->is_gone[i / 3] == 0) {
-            for (uint64_t k = i; k < i + 3; k++) {
-                is_used[welding->mesh->indices[k]] = 1;
-            }
-            left += 3;
-        }
-    }
-    return left;
-}
-
-// Writes a part that has additions behind what `to` has so far.
-static void copy_part(const FrWelding *welding, uint32_t index, FrMesh *to, FrMeshPart *out) {
-    const FrMeshPart *part = &welding->mesh->parts[index];
-    const FrAddition *more = &welding->additions[index];
-    uint64_t all = part->vertex_count + more->vertices->len;
-    uint8_t *is_used = g_new0(uint8_t, all);
-    uint32_t *place = g_new(uint32_t, all);
-    FrVertex *vertices = to->vertices + out->first_vertex;
-    uint32_t *indices = to->indices + out->first_index, count = 0;
-    mark_used(welding, part, is_used);
-    memset(is_used + part->vertex_count, 1, more->vertices->len);
-    for (uint64_t i = 0; i < all; i++) {
-        const FrVertex *from =
-            i < part->vertex_count
-                ? &welding->mesh->vertices[part->first_vertex + i]
-                : &g_array_index(more->vertices, FrVertex, i - part->vertex_count);
-        place[i] = count;
-        if (is_used[i] != 0) {
-            vertices[count++] = *from;
-        }
-    }
-    for (uint64_t i = part->first_index; i < part->first_index + part->index_count; i++) {
-        if (welding->is_gone[i / 3] == 0) {
-            *indices++ = place[welding->mesh->indices[i]];
-        }
-    }
-    for (guint i = 0; i < more->indices->len; i++) {
-        *indices++ = place[g_array_index(more->indices, uint32_t, i)];
-    }
-    FrBox box = fr_box_empty();
-    fr_box_widen(&box, vertices, count);
-    fr_part_set_box(out, box.min, box.max);
-    g_free(is_used);
-    g_free(place);
-}
-
-static void count_part(const FrWelding *welding, uint32_t index, FrMeshPart *out) {
-    const FrMeshPart *part = &welding->mesh->parts[index];
-    const FrAddition *more = &welding->additions[index];
-    if (more->vertices == NULL) {
-        return;
-    }
-    uint8_t *is_used = g_new0(uint8_t, part->vertex_count);
-    out->index_count = mark_used(welding, part, is_used) + more->indices->len;
-    out->vertex_count = more->vertices->len;
-    for (uint64_t i = 0; i < part->vertex_count; i++) {
-        out->vertex_count += is_used[i];
-    }
-    g_free(is_used);
-}
-
-static FrStatus rewrite(FrWelding *welding, FrMesh **mesh) {
-    const FrMesh *from = welding->mesh;
-    FrMeshPart *parts = g_memdup2(from->parts, from->part_count * sizeof *from->parts);
-    uint64_t vertices = 0, indices = 0;
-    for (uint32_t i = 0; i < from->part_count; i++) {
-        count_part(welding, i, &parts[i]);
-        parts[i].first_vertex = vertices;
-        parts[i].first_index = indices;
-        vertices += parts[i].vertex_count;
-        indices += parts[i].index_count;
-    }
-    FrStatus status = fr_job_check(welding->job, vertices, indices);
-    FrMesh *to = status == FR_OK ? fr_job_mesh(welding->job, vertices, indices) : NULL;
-    for (uint32_t i = 0; to != NULL && i < from->part_count; i++) {
-        const FrMeshPart *part = &from->parts[i];
-        if (welding->additions[i].vertices != NULL) {
-            copy_part(welding, i, to, &parts[i]);
-        } else {
-            memcpy(to->vertices + parts[i].first_vertex, from->vertices + part->first_vertex,
-                   part->vertex_count * sizeof(FrVertex));
-            memcpy(to->indices + parts[i].first_index, from->indices + part->first_index,
-                   part->index_count * sizeof(uint32_t));
-        }
-        to->parts[i] = parts[i];
-    }
-    g_free(parts);
-    if (to != NULL) {
-        fr_mesh_free(*mesh);
-        *mesh = to;
-    }
-    return status == FR_OK && to == NULL ? FR_ERR_MACHINE : status;
-}
-
 // ---- the whole ---------------------------------------------------------------------------------
 
 static uint32_t *tubes_by_node(const FrPlan *plan) {
@@ -367,18 +246,13 @@ static uint32_t *tubes_by_node(const FrPlan *plan) {
     return tube_of;
 }
 
-FrStatus fr_weld(const FrSkinJob *job, FrMesh **mesh) {
-    if (!fr_job_has_welds(job)) {
-        return FR_OK;
-    }
-    const FrPlan *plan = &job->wood->plan;
+FrStatus fr_weld(FrPatch *patch) {
+    const FrPlan *plan = &patch->job->wood->plan;
     FrWelding welding = {
-        .job = job,
-        .mesh = *mesh,
+        .patch = patch,
+        .plan = plan,
         .tube_of = tubes_by_node(plan),
         .grids = g_new0(FrWeldGrid, plan->tubes->len),
-        .is_gone = g_new0(uint8_t, (*mesh)->index_count / 3 + 1),
-        .additions = g_new0(FrAddition, (*mesh)->part_count),
     };
     FrStatus status = FR_OK;
     for (uint32_t i = 0; i < plan->tubes->len && status == FR_OK; i++) {
@@ -388,19 +262,10 @@ FrStatus fr_weld(const FrSkinJob *job, FrMesh **mesh) {
         }
         status = fr_progress_is_cancelled(plan->context->progress) ? FR_CANCELLED : FR_OK;
     }
-    status = status == FR_OK ? rewrite(&welding, mesh) : status;
     for (uint32_t i = 0; i < plan->tubes->len; i++) {
         fr_weld_grid_clear(&welding.grids[i]);
     }
-    for (uint32_t i = 0; i < job->part_count; i++) {
-        if (welding.additions[i].vertices != NULL) {
-            g_array_free(welding.additions[i].vertices, TRUE);
-            g_array_free(welding.additions[i].indices, TRUE);
-        }
-    }
     g_free(welding.tube_of);
     g_free(welding.grids);
-    g_free(welding.is_gone);
-    g_free(welding.additions);
     return status;
 }

@@ -1,12 +1,7 @@
-// Branches whose surface is one with their parent's. Private to skin.
+// What welding is made of. Private to skin.
 #pragma once
 
-#include "skin/job.h"
-
-/// Welds the tubes that are marked so: their first ring moves onto the parent's triangles, those
-/// under it go, and what is left open is closed by triangles that share its places. A mesh without
-/// such tubes stays as it is. FR_ERR_LIMIT if it would have too many triangles.
-FR_MUST_USE FrStatus fr_weld(const FrSkinJob *job, FrMesh **mesh);
+#include "skin/patch.h"
 
 // ---- weld_snap.c: places on the triangles of a tube ---------------------------------------------
 

@@ -202,6 +202,51 @@ static void test_plain_junction(void) {
     fr_plant_free(plant);
 }
 
+static FrPlant *felled(FrFinish finish, float wall) {
+    FrPlant *plant = fr_plant_new("felled");
+    check_stem(plant, FR_NONE, 24, 2.0F, 0.2F, 0.2F, check_straight, check_straight);
+    plant->axes.flags[0] |= FR_CUT;
+    FrMaterialParams params;
+    fr_params_init(fr_material_table(), &params);
+    FrMaterial *wood = fr_material_new("wood", &params, ".", (FrSpan){0});
+    finish.face = fr_plant_add_material(plant, wood) + 1;
+    finish.wall = wall;
+    plant->axes.finish[0] = fr_plant_add_finish(plant, &finish);
+    fr_material_unref(wood);
+    fr_params_clear(fr_material_table(), &params);
+    return plant;
+}
+
+// What a saw or a storm lays bare has a material of its own; the surface is closed all the same.
+static void test_face(void) {
+    const uint32_t caps[] = {FR_CAP_FLAT, FR_CAP_BROKEN};
+    for (int i = 0; i < 4; i++) {
+        FrFinish finish = neutral;
+        finish.cap = caps[i % 2];
+        FrPlant *plant = felled(finish, i < 2 ? 0.0F : 0.3F);
+        FrMesh *mesh = check_skin(plant, NULL);
+        check_sound(mesh);
+        g_assert_cmpuint(mesh->part_count, ==, 2);
+        g_assert_cmpuint(mesh->parts[0].material, ==, FR_NONE);
+        g_assert_cmpuint(mesh->parts[1].material, ==, 0);
+        assert_closed(mesh, 2);
+        g_assert_cmpfloat(mesh->parts[1].max[2], >=, 2.0F);
+        if (i == 0) {
+            g_assert_cmpfloat(mesh->parts[1].min[2], >, 1.9999F); // a disc
+        }
+        FrSkinParams params = fr_skin_default();
+        FrContext context = fr_context_default();
+        FrSkin *skin = fr_skin_new(&params, FR_UP_Z);
+        g_assert_cmpint(fr_skin_update(skin, plant, false, &context), ==, FR_OK);
+        FrMesh *kept = fr_skin_mesh(skin);
+        g_assert_cmphex(fr_mesh_digest(kept), ==, fr_mesh_digest(mesh));
+        fr_mesh_free(kept);
+        fr_skin_free(skin);
+        fr_mesh_free(mesh);
+        fr_plant_free(plant);
+    }
+}
+
 // No lengths, no radii, all at its extremes.
 static void test_hostile(void) {
     const uint32_t caps[] = {FR_CAP_FLAT, FR_CAP_ROUND, FR_CAP_BROKEN, FR_CAP_OPEN};
@@ -249,6 +294,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/finish/ridges and relief stand out and never in", test_outwards);
     g_test_add_func("/skin/finish/there are as many buttresses as were asked for", test_buttresses);
     g_test_add_func("/skin/finish/each level of detail is closed and smaller", test_levels);
+    g_test_add_func("/skin/finish/an end may be of another material", test_face);
     g_test_add_func("/skin/finish/a plain junction is a closed tube within its parent",
                     test_plain_junction);
     g_test_add_func("/skin/finish/extremes on stems without length or radius stay finite",
