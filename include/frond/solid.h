@@ -9,6 +9,7 @@ typedef struct FrCellGrid {
     double origin[3];
     double cell;       ///< m, > 0
     int64_t counts[3]; ///< cells along each axis, each at most 2³¹
+    int64_t first[3];  ///< cells before these are left out
 } FrCellGrid;
 
 /// Cells `first` … `last` along x of a row.

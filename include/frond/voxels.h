@@ -39,15 +39,19 @@ typedef struct FrBrick {
                         ///< branches in here
 } FrBrick;
 
-/// Bricks hang in blocks of 8³, blocks in a table of 64³.
+/// Bricks hang in blocks of 8³, blocks in a table of 64³. Inside obstacles all places share one
+/// brick, and one block of it; whoever writes there gets a brick of its own.
 typedef struct FrVoxels {
-    double origin[3]; ///< lowest corner, m
-    double cell;      ///< m
-    FrBrick ***top;   ///< [64³] blocks [8³] bricks; NULL where there is nothing
-    uint64_t bytes;   ///< held
+    double origin[3];  ///< lowest corner, m
+    double cell;       ///< m
+    FrBrick ***top;    ///< [64³] blocks [8³] bricks; NULL where there is nothing
+    uint64_t bytes;    ///< held
+    FrBrick inside[2]; ///< all solid; all ground
+    FrBrick **inside_block[2];
     GPtrArray *slabs; ///< private: memory of bricks and blocks
     size_t slab_used, slab_size;
-    GMutex lock; ///< private: of the slabs
+    GPtrArray *spare; ///< private: blocks that are not used any more
+    GMutex lock;      ///< private: of the slabs
 } FrVoxels;
 
 FR_API FrVoxels *fr_voxels_new(const double origin[3], double cell);
@@ -81,10 +85,15 @@ FR_API FR_MUST_USE FrStatus fr_voxels_check(const FrVoxels *voxels, uint64_t mor
 /// a brick beyond `end`. Some may be solid already where it fails.
 FR_API FR_MUST_USE FrStatus fr_voxels_add_triangles(FrVoxels *voxels, const FrVoxelSurface *surface,
                                                     const double end[3], const FrContext *context);
-/// Makes every cell solid whose middle a closed surface of triangles encloses, below `end`. Where
-/// that took too many bytes, nothing is done.
+/// Makes every cell solid whose middle a closed surface of triangles encloses, up to the end of
+/// the brick of `end`. What is deep inside costs no memory. Some may be solid already where it
+/// fails.
 FR_API FR_MUST_USE FrStatus fr_voxels_fill(FrVoxels *voxels, const FrVoxelSurface *surface,
                                            const double end[3], const FrContext *context);
+/// Makes all cells of the brick that begins at `first` solid. False if there is no memory.
+FR_API bool fr_voxels_fill_brick(FrVoxels *voxels, FrCell first, bool is_ground);
+/// Lets the blocks of all 64 layers from z on that are inside obstacles share one.
+FR_API void fr_voxels_share_blocks(FrVoxels *voxels, int z);
 /// Makes all obstacles go, and keeps what is owned.
 FR_API void fr_voxels_clear_solid(FrVoxels *voxels);
 /// Sets the bits of a brick whose owners have been written.
@@ -138,6 +147,15 @@ static inline unsigned fr_voxels_slot(unsigned layer, unsigned bit) {
 /// Where the owner of a cell is written, in a brick that has owners.
 static inline uint32_t *fr_voxels_at(const FrBrick *brick, FrCell cell) {
     return &brick->owners[fr_voxels_slot((unsigned)cell.at[2] & 7, fr_voxels_bit(cell))];
+}
+
+/// True for the bricks and blocks that all places inside obstacles share.
+static inline bool fr_voxels_is_inside(const FrVoxels *voxels, const FrBrick *brick) {
+    return brick == &voxels->inside[0] || brick == &voxels->inside[1];
+}
+
+static inline bool fr_voxels_is_inside_block(const FrVoxels *voxels, FrBrick **block) {
+    return block == voxels->inside_block[0] || block == voxels->inside_block[1];
 }
 
 /// What stands in a cell.

@@ -26,11 +26,12 @@ typedef void (*BrickFn)(void *user, const FrBrick *brick, FrCell first);
 static void each_brick(const FrVoxels *voxels, BrickFn visit, void *user) {
     for (int block = 0; block < 64 * 64 * 64; block++) {
         FrBrick **bricks = voxels->top[block];
-        for (int i = 0; bricks != NULL && i < 512; i++) {
+        bool is_seen = bricks != NULL && !fr_voxels_is_inside_block(voxels, bricks);
+        for (int i = 0; is_seen && i < 512; i++) {
             FrCell first = {{(int16_t)((block % 64) * 64 + i % 8 * 8),
                              (int16_t)((block / 64 % 64) * 64 + i / 8 % 8 * 8),
                              (int16_t)((block / 4096) * 64 + i / 64 * 8)}};
-            if (bricks[i] != NULL) {
+            if (bricks[i] != NULL && !fr_voxels_is_inside(voxels, bricks[i])) {
                 visit(user, bricks[i], first);
             }
         }

@@ -56,9 +56,9 @@ static void cells_between(const FrCellGrid *grid, int axis, double from, double 
                           int64_t *last) {
     double low = ceil((from - grid->origin[axis]) / grid->cell - 0.5);
     double high = floor((to - grid->origin[axis]) / grid->cell - 0.5);
-    double most = (double)grid->counts[axis] - 1;
-    *first = (int64_t)fmin(fmax(low, 0), most + 1);
-    *last = (int64_t)fmax(fmin(high, most), -1);
+    double least = (double)grid->first[axis], most = (double)grid->counts[axis] - 1;
+    *first = (int64_t)fmin(fmax(low, least), most + 1);
+    *last = (int64_t)fmax(fmin(high, most), least - 1);
 }
 
 static void add_triangle(const vec3s *positions, const uint32_t *index, const FrCellGrid *grid,

@@ -45,6 +45,15 @@ static void *take(FrVoxels *voxels, size_t size) {
     return memory;
 }
 
+/// Memory of a block that is not used any more; NULL: none.
+static FrBrick **take_spare(FrVoxels *voxels) {
+    if (voxels->spare->len == 0) {
+        return NULL;
+    }
+    voxels->bytes += BLOCK * sizeof(FrBrick *);
+    return g_ptr_array_steal_index_fast(voxels->spare, voxels->spare->len - 1);
+}
+
 FrVoxels *fr_voxels_new(const double origin[3], double cell) {
     FR_ASSERT(cell > 0);
     FrVoxels *voxels = g_new0(FrVoxels, 1);
@@ -53,13 +62,27 @@ FrVoxels *fr_voxels_new(const double origin[3], double cell) {
     voxels->top = g_new0(FrBrick **, TOP);
     voxels->bytes = TOP * sizeof(FrBrick **);
     voxels->slabs = g_ptr_array_new_with_free_func(free_slab);
+    voxels->spare = g_ptr_array_new();
     g_mutex_init(&voxels->lock);
+    for (int is_ground = 0; is_ground < 2; is_ground++) {
+        FrBrick *inside = &voxels->inside[is_ground];
+        memset(inside->taken, 0xff, sizeof inside->taken);
+        memset(inside->solid, 0xff, sizeof inside->solid);
+        memset(inside->ground, is_ground ? 0xff : 0, sizeof inside->ground);
+        voxels->inside_block[is_ground] = g_new(FrBrick *, BLOCK);
+        for (int i = 0; i < BLOCK; i++) {
+            voxels->inside_block[is_ground][i] = inside;
+        }
+    }
     return voxels;
 }
 
 void fr_voxels_free(FrVoxels *voxels) {
     if (voxels != NULL) {
         g_ptr_array_free(voxels->slabs, TRUE);
+        g_ptr_array_free(voxels->spare, TRUE);
+        g_free(voxels->inside_block[0]);
+        g_free(voxels->inside_block[1]);
         g_mutex_clear(&voxels->lock);
         g_free(voxels->top);
         g_free(voxels);
@@ -75,22 +98,83 @@ FrStatus fr_voxels_check(const FrVoxels *voxels, uint64_t more, FrSpan span,
                           "what is solid in the arena", span, context->diags);
 }
 
-FrBrick *fr_voxels_make(FrVoxels *voxels, FrCell cell) {
+static FrBrick ***top_of(const FrVoxels *voxels, FrCell cell) {
     unsigned x = (unsigned)cell.at[0], y = (unsigned)cell.at[1], z = (unsigned)cell.at[2];
-    FrBrick ***top = &voxels->top[((z >> 6) * 64 + (y >> 6)) * 64 + (x >> 6)];
-    FrBrick **block = *top;
-    if (block == NULL) {
-        block = take(voxels, BLOCK * sizeof(FrBrick *));
-        if (block == NULL) {
+    return &voxels->top[((z >> 6) * 64 + (y >> 6)) * 64 + (x >> 6)];
+}
+
+/// Where the brick of a cell hangs, in a block of its own; NULL if there is no memory.
+static FrBrick **place_of(FrVoxels *voxels, FrCell cell) {
+    unsigned x = (unsigned)cell.at[0], y = (unsigned)cell.at[1], z = (unsigned)cell.at[2];
+    FrBrick ***top = top_of(voxels, cell), **block = *top;
+    if (block == NULL || fr_voxels_is_inside_block(voxels, block)) {
+        size_t size = BLOCK * sizeof(FrBrick *);
+        FrBrick **own = take_spare(voxels);
+        own = own == NULL ? take(voxels, size) : own;
+        if (own == NULL) {
             return NULL;
         }
-        __atomic_store_n(top, block, __ATOMIC_RELEASE);
+        if (block != NULL) {
+            memcpy(own, block, size);
+        } else {
+            memset(own, 0, size);
+        }
+        __atomic_store_n(top, own, __ATOMIC_RELEASE);
+        block = own;
     }
-    FrBrick **place = &block[((z >> 3 & 7) * 8 + (y >> 3 & 7)) * 8 + (x >> 3 & 7)];
-    if (*place == NULL) {
-        __atomic_store_n(place, take(voxels, sizeof(FrBrick)), __ATOMIC_RELEASE);
+    return &block[((z >> 3 & 7) * 8 + (y >> 3 & 7)) * 8 + (x >> 3 & 7)];
+}
+
+FrBrick *fr_voxels_make(FrVoxels *voxels, FrCell cell) {
+    FrBrick **place = place_of(voxels, cell);
+    if (place == NULL || (*place != NULL && !fr_voxels_is_inside(voxels, *place))) {
+        return place == NULL ? NULL : *place;
     }
-    return *place;
+    FrBrick *own = take(voxels, sizeof(FrBrick));
+    if (own != NULL) {
+        *own = *place == NULL ? (FrBrick){0} : **place;
+        __atomic_store_n(place, own, __ATOMIC_RELEASE);
+    }
+    return own;
+}
+
+bool fr_voxels_fill_brick(FrVoxels *voxels, FrCell first, bool is_ground) {
+    FrBrick *old = fr_voxels_brick(voxels, first);
+    if (old == &voxels->inside[0] || (is_ground && old == &voxels->inside[1])) {
+        return true; // what is ground to one and solid to another is solid
+    }
+    FrBrick **place = place_of(voxels, first);
+    if (place == NULL) {
+        return false;
+    }
+    if (old == NULL || fr_voxels_is_inside(voxels, old)) {
+        *place = &voxels->inside[is_ground];
+        return true;
+    }
+    for (unsigned layer = 0; layer < 8; layer++) {
+        old->ground[layer] = is_ground ? old->ground[layer] | ~old->solid[layer] : 0;
+        old->taken[layer] = old->solid[layer] = UINT64_MAX;
+    }
+    return true;
+}
+
+void fr_voxels_share_blocks(FrVoxels *voxels, int z) {
+    for (int top = z / 64 * 4096; top < (z / 64 + 1) * 4096; top++) {
+        FrBrick **block = voxels->top[top];
+        if (block == NULL || !fr_voxels_is_inside(voxels, block[0]) ||
+            fr_voxels_is_inside_block(voxels, block)) {
+            continue;
+        }
+        int alike = 1;
+        while (alike < BLOCK && block[alike] == block[0]) {
+            alike++;
+        }
+        if (alike == BLOCK) {
+            voxels->top[top] = voxels->inside_block[block[0] == &voxels->inside[1]];
+            g_ptr_array_add(voxels->spare, block);
+            voxels->bytes -= BLOCK * sizeof(FrBrick *);
+        }
+    }
 }
 
 FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell) {
@@ -144,7 +228,8 @@ void fr_voxels_each_owned(const FrVoxels *voxels,
                           void (*visit)(void *data, FrCell first, FrBrick *brick), void *data) {
     for (int top = 0; top < TOP; top++) {
         FrBrick **block = voxels->top[top];
-        for (int i = 0; block != NULL && i < BLOCK; i++) {
+        bool has_owners = block != NULL && !fr_voxels_is_inside_block(voxels, block);
+        for (int i = 0; has_owners && i < BLOCK; i++) {
             if (block[i] != NULL && block[i]->owners != NULL) {
                 FrCell first = {{(int16_t)((top % 64) * 64 + (i % 8) * 8),
                                  (int16_t)((top / 64 % 64) * 64 + (i / 8 % 8) * 8),
@@ -174,7 +259,13 @@ void fr_voxels_note_owners(FrBrick *brick) {
 void fr_voxels_clear_solid(FrVoxels *voxels) {
     for (int top = 0; top < TOP; top++) {
         FrBrick **block = voxels->top[top];
+        if (fr_voxels_is_inside_block(voxels, block)) {
+            voxels->top[top] = block = NULL;
+        }
         for (int i = 0; block != NULL && i < BLOCK; i++) {
+            if (fr_voxels_is_inside(voxels, block[i])) {
+                block[i] = NULL;
+            }
             for (unsigned layer = 0; block[i] != NULL && layer < 8; layer++) {
                 block[i]->solid[layer] = 0;
                 block[i]->ground[layer] = 0;

@@ -160,6 +160,48 @@ static void filled_voxels(void) {
     g_free(cells);
 }
 
+static uint32_t owner_at(const FrVoxels *voxels, int x, int y, int z) {
+    return fr_voxels_owner(voxels, (FrCell){{(int16_t)x, (int16_t)y, (int16_t)z}});
+}
+
+/// The lowest 64 layers of a cube that would fill 40 gigabytes with bricks.
+static void deep_inside(void) {
+    vec3s huge[8];
+    for (int i = 0; i < 8; i++) {
+        huge[i] = glms_vec3_scale(cube[i], 600);
+    }
+    const double origin[3] = {-500, -500, -500}, end[3] = {500, 500, -484.4};
+    FrVoxels *voxels = fr_voxels_new(origin, 1000.0 / 4095);
+    FrVoxelSurface surface = {
+        .positions = huge, .indices = sides, .index_count = 36, .is_ground = true};
+    FrContext context = fr_context_default();
+    uint64_t empty = voxels->bytes;
+    context.limits.bytes = empty + (20 << 20);
+    g_assert_cmpint(fr_voxels_fill(voxels, &surface, end, &context), ==, FR_OK);
+    g_assert_cmpuint(owner_at(voxels, 2000, 2000, 40), ==, FR_VOXEL_GROUND);
+    g_assert_cmpuint(owner_at(voxels, 2000, 2000, 100), ==, FR_VOXEL_FREE);
+    g_assert_cmpuint(voxels->bytes, ==, empty);
+    // A root in there: its brick is its own, those beside it are as they were.
+    const FrCell root = {{2001, 2001, 41}};
+    uint64_t before = voxels->bytes;
+    *fr_voxels_at(fr_voxels_reserve(voxels, root), root) = 7;
+    g_assert_cmpuint(voxels->bytes - before, <, 8192);
+    g_assert_cmpuint(owner_at(voxels, 2000, 2000, 40), ==, FR_VOXEL_GROUND);
+    g_assert_cmpuint(owner_at(voxels, 2010, 2001, 41), ==, FR_VOXEL_GROUND);
+    // What is solid too is solid, where bricks are shared and where they are not.
+    surface.is_ground = false;
+    g_assert_cmpint(fr_voxels_fill(voxels, &surface, end, &context), ==, FR_OK);
+    surface.is_ground = true;
+    g_assert_cmpint(fr_voxels_fill(voxels, &surface, end, &context), ==, FR_OK);
+    g_assert_cmpuint(owner_at(voxels, 2000, 2000, 40), ==, FR_VOXEL_SOLID);
+    g_assert_cmpuint(owner_at(voxels, 3000, 100, 50), ==, FR_VOXEL_SOLID);
+    fr_voxels_clear_solid(voxels);
+    g_assert_cmpuint(owner_at(voxels, 3000, 100, 50), ==, FR_VOXEL_FREE);
+    g_assert_cmpuint(owner_at(voxels, 2000, 2000, 40), ==, FR_VOXEL_FREE);
+    g_assert_cmpuint(owner_at(voxels, 2001, 2001, 41), ==, 7);
+    fr_voxels_free(voxels);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/space/solid/a cube has the cells of its volume", cube_cells);
@@ -169,5 +211,6 @@ int main(int argc, char **argv) {
                     union_cells);
     g_test_add_func("/space/solid/open and flat surfaces enclose nothing", open_surfaces);
     g_test_add_func("/space/solid/voxels are filled with the same cells", filled_voxels);
+    g_test_add_func("/space/solid/what is deep inside costs no memory", deep_inside);
     return g_test_run();
 }
