@@ -86,6 +86,7 @@ typedef struct FrSeed {
     double at[3];     ///< m
     uint64_t id;      ///< of its own among all seeds; all chance in the plant depends on it
     uint32_t species; ///< index
+    FrSpan span;      ///< where a document places it, for diagnostics; borrowed and not kept
 } FrSeed;
 
 /// What a step has done and what there is after it.
@@ -122,7 +123,8 @@ FR_API void fr_growth_free(FrGrowth *growth);
 FR_API FR_MUST_USE FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup,
                                              const FrContext *context);
 /// Adds plants of one bud each. A seed outside the arena or inside an obstacle is left out with a
-/// warning; the plants keep the numbers of their seeds.
+/// warning; the plants keep the numbers of their seeds. Another warning tells of seeds from which
+/// no trunk comes to its envelope.
 FR_API FR_MUST_USE FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds,
                                                 uint32_t count, const FrContext *context);
 FR_API FR_MUST_USE FrStatus fr_growth_add_particles(FrGrowth *growth, const FrParticle *particles,

@@ -110,7 +110,7 @@ FrEcosystem *fr_ecosystem_new(const FrDocument *document, int64_t seed, uint32_t
 }
 
 void fr_ecosystem_add(FrEcosystem *ecosystem, FrScene *scene, const FrPlaced *placed) {
-    FrSeed seed = {.id = placed->key};
+    FrSeed seed = {.id = placed->key, .span = placed->span};
     memcpy(seed.at, placed->stand.at, sizeof seed.at);
     gpointer is_old;
     while (g_hash_table_lookup_extended(ecosystem->ids, &seed.id, NULL, &is_old)) {

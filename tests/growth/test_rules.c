@@ -687,6 +687,54 @@ static void test_checked(void) {
     world_clear(&world);
 }
 
+/// A seed beside its envelope is told; one below it is not, for its trunk grows into it.
+static void test_beside_envelope(void) {
+    static const struct {
+        const char *envelope;
+        size_t warnings;
+    } cases[] = {{"0,0 1,1 0,2", 0}, {"0,1.5 1,2 0,3", 0}, {"0,-3 1,-2 0,-1", 1}, {"", 0}};
+    for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+        World world;
+        plain(&world);
+        world_set(&world, "envelope", cases[i].envelope);
+        FrSource *source = fr_source_new("seeds", "here", 4);
+        const FrSeed seed = {.id = 1, .span = {.source = source, .end = 4}};
+        world_sow(&world, &seed, 1);
+        g_assert_cmpuint(fr_diags_count(world.context.diags), ==, cases[i].warnings);
+        if (cases[i].warnings > 0) {
+            const FrDiag *diag = fr_diags_get(world.context.diags, 0);
+            g_assert_cmpstr(diag->code, ==, "seed-envelope");
+            g_assert_true(diag->span.source == source);
+        }
+        world_clear(&world);
+        fr_source_unref(source);
+    }
+}
+
+/// Leaves that face the light do so, wherever it comes from.
+static void test_lit_leaves(void) {
+    World world;
+    plain(&world);
+    world_set(&world, "leaf-facing", "lit");
+    vec3s wall[4] = {{{0.3f, -19, 0}}, {{0.3f, 19, 0}}, {{0.3f, 19, 29}}, {{0.3f, -19, 29}}};
+    FrGrowthObstacle beside = sheet(wall);
+    world.setup.obstacles = &beside;
+    world.setup.obstacle_count = 1;
+    world_sow_one(&world);
+    world_step(&world, 4);
+    FrPlant *plant = world_plant(&world, 0);
+    g_assert_cmpuint(plant->organs.count, >, 4);
+    double lean = 0;
+    for (uint32_t i = 0; i < plant->organs.count; i++) {
+        versors world_frame =
+            glms_quat_mul(plant->nodes.frame[plant->organs.node[i]], plant->organs.rotation[i]);
+        lean += (double)fr_frame_up(world_frame).x / plant->organs.count;
+    }
+    g_assert_cmpfloat(lean, <, -0.25); // away from the wall
+    fr_plant_free(plant);
+    world_clear(&world);
+}
+
 static void test_presets(void) {
     for (const char *const *name = fr_species_presets(); *name != NULL; name++) {
         World world;
@@ -724,6 +772,9 @@ int main(int argc, char **argv) {
     g_test_add_func("/growth/rules/E10 no branch keeps so many dark buds", test_shed);
     g_test_add_func("/growth/rules/E19 forks keep the area, trunks never thin", test_wood);
     g_test_add_func("/growth/rules/E20 level leaves are level", test_level_leaves);
+    g_test_add_func("/growth/rules/leaves that face the light turn from a wall", test_lit_leaves);
+    g_test_add_func("/growth/rules/a seed beside its envelope is told at its place",
+                    test_beside_envelope);
     g_test_add_func("/growth/rules/E11 particles draw buds and die when reached", test_particles);
     g_test_add_func("/growth/rules/E11 by the published rule the bud dies too",
                     test_particle_and_bud);

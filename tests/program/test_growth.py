@@ -111,6 +111,32 @@ def thinning(folder):
     assert stats["living"] == living[-1] and abs(stats["wood"] / wood[-1] - 1) < 0.05
 
 
+def resumed_later(folder):
+    """A state that has more steps than are asked for is shown as it is, and told."""
+    saved = folder / "saved"
+    tap.run("build", PARTS, "-q", "--steps", 4, "--checkpoint", saved)
+    said = tap.run("build", PARTS, "--steps", 2, "--resume", saved).stderr
+    assert "[resumed-later]" in said and "4 steps" in said, said
+    assert len(tap.statistics(PARTS, "--steps", 2, "--resume", saved)["per_step"]) == 4
+
+
+def told_at_places(folder):
+    """What stands where it cannot grow is told at what has placed it."""
+    document = folder / "wrong.frond"
+    document.write_text("""<frond version="1">
+  <plant id="oak"><species envelope="0,-3 1,-2 0,-1"/></plant>
+  <scene>
+    <growth steps="1"/>
+    <place plant="oak"/>
+    <place plant="oak" at="500, 0, 0"/>
+  </scene>
+</frond>
+""")
+    said = tap.run("build", document, "--set", "oak.species.leaf-length=0.3").stderr
+    assert "wrong.frond:5:6: warning" in said and "[seed-envelope]" in said, said
+    assert "wrong.frond:6:6: warning" in said and "[seed-place]" in said, said
+
+
 def checked_soon(folder):
     """What is wrong with a growth is said without growing it."""
     began = time.monotonic()
@@ -135,6 +161,8 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
          ("/program/growth/frames show the steps", frames),
          ("/program/growth/the forest has the numbers of Figure 8", forest),
          ("/program/growth/the living and their wood are counted", thinning),
+         ("/program/growth/a state with more steps than asked for is told", resumed_later),
+         ("/program/growth/seeds that cannot grow are told at their places", told_at_places),
          ("/program/growth/checking does not grow", checked_soon)]
 
 if __name__ == "__main__":
