@@ -17,6 +17,7 @@ typedef struct FrPick {
 /// The nearest thing that a ray from `origin` along `direction` (unit length) meets. `spread` is
 /// how much wider the ray gets with each metre, so that thin twigs far away can be met: the angle
 /// of a few pixels, in radians. Internodes count as cones, organs as balls about the middle of
-/// their shape. False if it meets nothing. Linear in all internodes and organs.
+/// their shape; obstacles and the ground are met on their surface. False if it meets nothing.
+/// Linear in all internodes and organs.
 FR_API bool fr_scene_pick(const FrScene *scene, const double origin[3], const double direction[3],
                           double spread, FrPick *pick);

@@ -24,6 +24,7 @@ typedef struct FrStand {
     double at[3];
     double turn; ///< radians about z
     double scale;
+    uint32_t origin; ///< byte of the document where the element begins that has placed it; 0: none
 } FrStand;
 
 /// One step of plants that grow in each other's light or bud by bud.

@@ -72,16 +72,18 @@ static void list_definitions(FrEcosystem *ecosystem) {
 }
 
 /// Adds a seed, and an empty plant of the scene for it.
-static void add_seed(FrEcosystem *ecosystem, FrScene *scene, const FrSeed *seed, bool is_old) {
+static void add_seed(FrEcosystem *ecosystem, FrScene *scene, const FrSeed *seed, uint32_t origin,
+                     bool is_old) {
+    // Of an old one, the number of its stand and 1.
     g_hash_table_insert(ecosystem->ids, g_memdup2(&seed->id, sizeof seed->id),
-                        GINT_TO_POINTER(is_old));
+                        GUINT_TO_POINTER(is_old ? scene->stands->len + 1 : 0));
     g_array_append_val(ecosystem->seeds, *seed);
     g_array_append_val(ecosystem->plants, scene->plants->len);
     const FrPlantDef *definition = g_ptr_array_index(ecosystem->definitions, seed->species);
     FrScenePlant made = {.plant = fr_plant_new(definition->id)};
     made.by_component = g_new0(uint64_t, 1);
     // A plant grows where it stands: upright, and of its own size.
-    FrStand stand = {.plant = scene->plants->len, .scale = 1};
+    FrStand stand = {.plant = scene->plants->len, .scale = 1, .origin = origin};
     memcpy(stand.at, seed->at, sizeof stand.at);
     g_array_append_val(scene->plants, made);
     g_array_append_val(scene->stands, stand);
@@ -103,7 +105,7 @@ FrEcosystem *fr_ecosystem_new(const FrDocument *document, int64_t seed, uint32_t
     for (uint32_t i = 0; i < old; i++) {
         FrSeed seed_of = fr_growth_seed(previous->growth, i);
         if (seed_of.species < made->definitions->len) {
-            add_seed(made, scene, &seed_of, true);
+            add_seed(made, scene, &seed_of, 0, true);
         }
     }
     return made;
@@ -112,9 +114,11 @@ FrEcosystem *fr_ecosystem_new(const FrDocument *document, int64_t seed, uint32_t
 void fr_ecosystem_add(FrEcosystem *ecosystem, FrScene *scene, const FrPlaced *placed) {
     FrSeed seed = {.id = placed->key, .span = placed->span};
     memcpy(seed.at, placed->stand.at, sizeof seed.at);
-    gpointer is_old;
-    while (g_hash_table_lookup_extended(ecosystem->ids, &seed.id, NULL, &is_old)) {
-        if (GPOINTER_TO_INT(is_old) != 0) { // it stands there already
+    gpointer old;
+    while (g_hash_table_lookup_extended(ecosystem->ids, &seed.id, NULL, &old)) {
+        if (old != NULL) { // it stands there already
+            g_array_index(scene->stands, FrStand, GPOINTER_TO_UINT(old) - 1).origin =
+                placed->stand.origin;
             g_hash_table_insert(ecosystem->ids, g_memdup2(&seed.id, sizeof seed.id), NULL);
             return;
         }
@@ -124,7 +128,7 @@ void fr_ecosystem_add(FrEcosystem *ecosystem, FrScene *scene, const FrPlaced *pl
     bool is_known = g_ptr_array_find(ecosystem->definitions, placed->plant, &index);
     FR_ASSERT(is_known);
     seed.species = index;
-    add_seed(ecosystem, scene, &seed, false);
+    add_seed(ecosystem, scene, &seed, placed->stand.origin, false);
 }
 
 // ---- the world --------------------------------------------------------------------------------

@@ -2,7 +2,8 @@
 /// Obstacles of a document as a plant. Private to scene.
 #pragma once
 
-#include "scene/terrain.h"
+#include "frond/scene.h"
+#include "frond/terrain.h"
 
 /// A plant without nodes whose organs are the visible obstacles, at most FrLimits.organs of them,
 /// and the ground, if `hills` is not NULL. NULL if there are none.

@@ -1,5 +1,7 @@
 #include "frond/pick.h"
 
+#include "scene/pick_solid.h"
+
 #include <cglm/struct.h>
 #include <math.h>
 #include <string.h>
@@ -118,6 +120,19 @@ static void meet_organs(const FrPlant *plant, const Ray *ray, double scale, FrPi
     }
 }
 
+static void meet_solids(const FrPlant *plant, const Ray *ray, FrPick *best) {
+    for (uint32_t i = 0; i < plant->organs.count; i++) {
+        double t = fr_pick_solid(plant, i, ray->origin, ray->direction);
+        if (t < best->distance) {
+            best->distance = t;
+            best->node = FR_NONE;
+            best->organ = i;
+            best->component = FR_NONE;
+            best->path = 0;
+        }
+    }
+}
+
 bool fr_scene_pick(const FrScene *scene, const double origin[3], const double direction[3],
                    double spread, FrPick *pick) {
     *pick = (FrPick){.node = FR_NONE, .organ = FR_NONE, .distance = INFINITY};
@@ -126,8 +141,12 @@ bool fr_scene_pick(const FrScene *scene, const double origin[3], const double di
         const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, stand->plant).plant;
         Ray ray = within(stand, origin, direction, spread);
         double before = pick->distance;
-        meet_axes(plant, &ray, stand->scale, pick);
-        meet_organs(plant, &ray, stand->scale, pick);
+        if (i < fr_scene_stand_count(scene)) {
+            meet_axes(plant, &ray, stand->scale, pick);
+            meet_organs(plant, &ray, stand->scale, pick);
+        } else {
+            meet_solids(plant, &ray, pick);
+        }
         if (pick->distance < before) {
             pick->stand = i;
             pick->plant = stand->plant;

@@ -40,7 +40,8 @@ static FrStatus add_place(Placing *placing, const FrPlace *place) {
         .plant = plant,
         .stand = {.at = {(double)place->at.x, (double)place->at.y, (double)place->at.z},
                   .turn = place->turn,
-                  .scale = place->scale},
+                  .scale = place->scale,
+                  .origin = fr_span_outermost(place->span).begin},
         .seed = place->seed,
         .span = place->span};
     placed.key = place->seed >= 0 ? fr_key_child(fr_key_root((uint64_t)place->seed), 0)
@@ -107,9 +108,10 @@ static void add_spread(Placing *placing, const Spread *spread, uint64_t index, c
     vars.value[FR_VAR_i] = (double)index;
     vars.value[FR_VAR_n] = (double)spread->count;
     vars.value[FR_VAR_t] = spread->count > 1 ? (double)index / (double)(spread->count - 1) : 0;
-    FrPlaced placed = {.plant = spread->plants[part],
-                       .stand = {.at = {at[0], at[1], at[2]}},
-                       .span = spread->span};
+    FrPlaced placed = {
+        .plant = spread->plants[part],
+        .stand = {.at = {at[0], at[1], at[2]}, .origin = fr_span_outermost(spread->span).begin},
+        .span = spread->span};
     placed.stand.turn = turn + fr_number_eval(spread->turn, &vars, 0, NULL);
     placed.stand.scale = fr_number_eval(spread->scale, &vars, 1, NULL);
     uint64_t individual = spread->individuals == 0

@@ -2,7 +2,8 @@
 /// All plants of a document with their places. Private to scene.
 #pragma once
 
-#include "scene/terrain.h"
+#include "frond/scene.h"
+#include "frond/terrain.h"
 
 /// A plant that is to stand somewhere.
 typedef struct FrPlaced {

@@ -4,7 +4,8 @@
 #pragma once
 
 #include "frond/growth.h"
-#include "scene/terrain.h"
+#include "frond/scene.h"
+#include "frond/terrain.h"
 
 typedef struct FrSolids {
     GArray *all; ///< FrGrowthObstacle, which own their arrays

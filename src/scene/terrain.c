@@ -1,5 +1,5 @@
 /// Terrain: a height map becomes triangles; a grid over all triangles finds the highest at a place.
-#include "scene/terrain.h"
+#include "frond/terrain.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,7 +10,7 @@ enum {
 };
 
 struct FrHills {
-    const FrTerrain *terrain;
+    double at[3], scale[3], turn; ///< of the mesh
     FrMeshFile *mesh;
     uint32_t side;      ///< cells along a side
     uint32_t *first;    ///< by cell, of `triangles`; one more than there are cells
@@ -61,8 +61,7 @@ static FrMeshFile *mesh_of_map(const FrTerrain *terrain, const uint32_t points[2
     return fr_mesh_file_new(positions, NULL, uvs, (uint32_t)count, indices, index_count, NULL);
 }
 
-static FrStatus make_mesh(FrHills *hills, const FrContext *context) {
-    const FrTerrain *terrain = hills->terrain;
+static FrStatus make_mesh(FrHills *hills, const FrTerrain *terrain, const FrContext *context) {
     if (terrain->mesh != NULL) {
         hills->mesh = fr_mesh_file_ref(terrain->mesh);
         return FR_OK;
@@ -160,8 +159,12 @@ FrStatus fr_hills_new(const FrTerrain *terrain, const FrContext *context, FrHill
         return FR_OK;
     }
     FrHills *made = g_new0(FrHills, 1);
-    made->terrain = terrain;
-    FrStatus status = make_mesh(made, context);
+    for (int k = 0; k < 3; k++) {
+        made->at[k] = (double)terrain->at.raw[k];
+        made->scale[k] = terrain->mesh != NULL ? (double)terrain->size.raw[k] : 1;
+    }
+    made->turn = terrain->turn;
+    FrStatus status = make_mesh(made, terrain, context);
     if (status != FR_OK) {
         fr_hills_free(made);
         return status;
@@ -209,16 +212,10 @@ static bool triangle_height(const FrMeshFile *mesh, uint32_t triangle, const dou
 }
 
 bool fr_hills_height(const FrHills *hills, double x, double y, double *height) {
-    const FrTerrain *terrain = hills->terrain;
-    bool is_mesh = terrain->mesh != NULL;
-    double sine = sin(terrain->turn), cosine = cos(terrain->turn);
-    double dx = x - (double)terrain->at.x, dy = y - (double)terrain->at.y;
-    double scale[3];
-    for (int k = 0; k < 3; k++) {
-        scale[k] = is_mesh ? (double)terrain->size.raw[k] : 1;
-    }
-    const double at[2] = {(cosine * dx + sine * dy) / scale[0],
-                          (cosine * dy - sine * dx) / scale[1]};
+    double sine = sin(hills->turn), cosine = cos(hills->turn);
+    double dx = x - hills->at[0], dy = y - hills->at[1];
+    const double at[2] = {(cosine * dx + sine * dy) / hills->scale[0],
+                          (cosine * dy - sine * dx) / hills->scale[1]};
     const vec3s min = hills->mesh->min, max = hills->mesh->max;
     if (at[0] < (double)min.x || at[0] > (double)max.x || at[1] < (double)min.y ||
         at[1] > (double)max.y) {
@@ -232,6 +229,6 @@ bool fr_hills_height(const FrHills *hills, double x, double y, double *height) {
             highest = fmax(highest, found);
         }
     }
-    *height = (double)terrain->at.z + highest * scale[2];
+    *height = hills->at[2] + highest * hills->scale[2];
     return isfinite(highest);
 }

@@ -1,8 +1,8 @@
 /// Hills that plants stand on, and solids drawn along lines.
 #include "built.h"
 
+#include "frond/terrain.h"
 #include "scene/swept.h"
-#include "scene/terrain.h"
 
 #include <math.h>
 #include <unistd.h>
