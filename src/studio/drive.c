@@ -193,6 +193,14 @@ static void picture(Drive *drive, char *const *words, const char *rest) {
     answer("%s", studio_picture_save(GTK_WIDGET(drive->window), rest) ? "ok" : "error no picture");
 }
 
+static void write_text(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    size_t size;
+    const char *text = fr_source_text(studio_document_source(drive->window->document), &size);
+    bool is_written = g_file_set_contents(rest, text, (gssize)size, NULL);
+    answer("%s", is_written ? "ok" : "error it cannot be written");
+}
+
 // The dialog above the window; NULL.
 static GtkWindow *find_dialog(StudioWindow *window) {
     GtkWindow *found = NULL;
@@ -294,6 +302,7 @@ static const struct {
     {"turn", turn, 4, false},
     {"orbit", orbit, 2, true},
     {"where", where, 2, false},
+    {"write", write_text, 2, false},
     {"picture", picture, 2, false},
     {"picture-of-dialog", picture_of_dialog, 2, false},
     {"close-dialog", close_dialog, 1, false},

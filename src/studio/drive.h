@@ -14,6 +14,7 @@
 ///   orbit FRAMES           turns the view so often; answers how many seconds that took
 ///   where NAME             answers X Y WIDTH HEIGHT of a widget, or of the box of a component;
 ///                        at:X,Y,Z is a point of the scene
+///   write FILE             the text as it is, to a file that the document does not have then
 ///   picture FILE           writes a PNG of the window
 ///   picture-of-dialog FILE, close-dialog    the same of the dialog above it, which goes
 ///   keep, restore          writes the copy for a crash; opens what a crash has left

@@ -47,8 +47,14 @@ static GtkWidget *make_row(const FrContents *contents, uint32_t element) {
         g_free(from);
         g_free(to);
     }
-    if (called == NULL && strcmp(at->name, "edit") == 0) {
-        called = fr_contents_get(contents, element, "at");
+    static const char *const telling[][2] = {
+        {"edit", "at"},   {"place", "plant"},  {"row", "plants"},
+        {"view", "name"}, {"strew", "plants"}, {"obstacle", "shape"},
+    };
+    for (size_t i = 0; called == NULL && i < G_N_ELEMENTS(telling); i++) {
+        if (strcmp(at->name, telling[i][0]) == 0) {
+            called = fr_contents_get(contents, element, telling[i][1]);
+        }
     }
     GtkWidget *name = gtk_label_new(called != NULL ? called : at->name);
     gtk_label_set_xalign(GTK_LABEL(name), 0);

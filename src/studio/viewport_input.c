@@ -12,6 +12,7 @@ static guint signals[SIGNAL_COUNT];
 
 static void moved(StudioViewport *viewport) {
     viewport->is_moving = true;
+    viewport->is_framed = true; // what is seen has been chosen
     viewport->moved = g_get_monotonic_time();
     if (viewport->renderer != NULL) {
         studio_renderer_invalidate(viewport->renderer, false);

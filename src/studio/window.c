@@ -60,6 +60,7 @@ static void update_panels(StudioWindow *window) {
     studio_inspector_show(window->inspector, window->document, selected, window->diags);
     studio_time_strip_show(window->strip, window->document, studio_window_plant(window));
     studio_light_mode_update(window->light);
+    studio_scene_tool_update(window->scene);
 }
 
 void studio_window_select(StudioWindow *window, uint32_t element) {
@@ -215,6 +216,7 @@ void studio_window_take(StudioWindow *window, StudioDocument *document) {
         gtk_widget_set_visible(window->welcome_hidden[i], TRUE);
     }
     studio_viewport_forget(window->viewport);
+    studio_scene_tool_reset(window->scene);
     studio_window_unpick(window);
     const FrContents *contents = studio_document_contents(document);
     uint32_t plant = contents == NULL ? FR_NONE : fr_contents_child(contents, 0, "plant");
@@ -307,7 +309,14 @@ static void studio_window_dispose(GObject *object) {
     G_OBJECT_CLASS(studio_window_parent_class)->dispose(object);
 }
 
+// Its widgets, which hold on to the tools, have gone.
+static void studio_window_finalize(GObject *object) {
+    studio_scene_tool_free(STUDIO_WINDOW(object)->scene);
+    G_OBJECT_CLASS(studio_window_parent_class)->finalize(object);
+}
+
 static void studio_window_class_init(StudioWindowClass *class) {
+    G_OBJECT_CLASS(class)->finalize = studio_window_finalize;
     G_OBJECT_CLASS(class)->dispose = studio_window_dispose;
 }
 

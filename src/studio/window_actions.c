@@ -1,5 +1,6 @@
 /// What a window does when told to: every command is an action, so that menus, keys and tests use
 /// the same way.
+#include "studio/model/scene_edit.h"
 #include "studio/window_private.h"
 
 #include <math.h>
@@ -182,10 +183,8 @@ static void do_remove(GSimpleAction *action, GVariant *parameter, gpointer data)
     if (id != NULL) {
         studio_remove_component(window->document, studio_window_plant(window), id);
     } else if (element != FR_NONE && element != 0) {
-        studio_document_splice_one(
-            window->document,
-            fr_contents_remove(studio_document_contents(window->document), element), "Remove",
-            NULL);
+        studio_window_select(window, FR_NONE); // else what follows it would take its number
+        studio_take_out(window->document, &element, 1, NULL);
     }
     g_free(id);
 }

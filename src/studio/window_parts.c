@@ -24,7 +24,9 @@ static void on_step(StudioTimeStrip *strip, gint64 step, StudioWindow *window) {
 
 static void on_clicked(StudioViewport *viewport, double x, double y, StudioWindow *window) {
     (void)viewport;
-    studio_window_pick(window, x, y);
+    if (window->document != NULL && !studio_scene_tool_click(window->scene, x, y)) {
+        studio_window_pick(window, x, y);
+    }
 }
 
 static void on_ready(StudioViewport *viewport, StudioWindow *window) {
@@ -265,6 +267,7 @@ static GtkWidget *make_middle(StudioWindow *window) {
     gtk_widget_set_vexpand(GTK_WIDGET(window->viewport), TRUE);
     GtkOverlay *overlay = GTK_OVERLAY(gtk_overlay_new());
     gtk_overlay_set_child(overlay, GTK_WIDGET(window->viewport));
+    window->scene = studio_scene_tool_new(window, overlay);
     window->amount = gtk_label_new("");
     gtk_widget_add_css_class(window->amount, "amount");
     gtk_widget_set_halign(window->amount, GTK_ALIGN_START);

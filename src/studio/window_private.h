@@ -12,6 +12,7 @@
 #include "studio/model/place.h"
 #include "studio/picture.h"
 #include "studio/sketch_panel.h"
+#include "studio/scene_tool.h"
 #include "studio/text_panel.h"
 #include "studio/things_panel.h"
 #include "studio/time_strip.h"
@@ -50,6 +51,7 @@ struct _StudioWindow {
     StudioTimeStrip *strip;
     StudioLightMode *light;
     StudioSketchPanel *sketch;
+    StudioSceneTool *scene;
     GtkWidget *picked_bar, *picked_text;
     GtkWidget *amount, *problem, *problem_text, *busy, *busy_text, *busy_bar, *scale;
 };

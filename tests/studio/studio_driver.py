@@ -88,6 +88,17 @@ class Studio:
         x, y, width, height = self.where(name)
         return x + across * width, y + down * height
 
+    def point(self, *place):
+        """Where a point of the scene is seen."""
+        return self.where("at:%g,%g,%g" % place)[:2]
+
+    def text(self, home):
+        """The document as it is now."""
+        copy = os.path.join(home, "as-it-is.frond")
+        self.ask(f"write {copy}")
+        with open(copy, encoding="utf-8") as file:
+            return file.read()
+
     def pointer(self, *words):
         subprocess.run(["xdotool", *[str(word) for word in words]], check=True,
                        env=self.environment)

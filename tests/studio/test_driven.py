@@ -58,6 +58,18 @@ ROOM = """<frond version="1">
 """
 
 
+GROVE = """<frond version="1">
+  <plant id="tree">
+    <species leaf-length="0.3" leaf-width="0.2"/>
+  </plant>
+  <scene>
+    <growth steps="0"/>
+    <place plant="tree" at="0, 0, 0"/>
+  </scene>
+</frond>
+"""
+
+
 class Run:
     """One studio for all tests, as a person has one."""
 
@@ -103,6 +115,77 @@ def open_flower(run):
     run.studio.ask(f"open {run.file}")
     run.studio.wait()
     run.first = run.studio.state()["digest"]
+
+
+def open_grove(run):
+    studio = run.studio
+    grove = os.path.join(run.home, "grove.frond")
+    with open(grove, "w", encoding="utf-8") as file:
+        file.write(GROVE)
+    studio.ask(f"open {grove}")
+    studio.wait()
+    studio.ask("turn 0 20 7")
+    studio.wait()
+
+
+def test_grove(run):
+    """three trees are planted by clicks and grow ten steps"""
+    open_grove(run)
+    studio = run.studio
+    studio.click(studio.middle("tool-plant"))
+    for place in ((1.5, -0.5, 0), (-1.5, 0, 0), (0.5, 1.5, 0)):
+        studio.click(studio.point(*place))
+        studio.wait()
+    state = studio.state()
+    assert state["steps"] == 3 and state["problems"] == 0, state
+    assert studio.text(run.home).count("<place") == 4
+    for _ in range(10):
+        studio.click(studio.middle("A step"))
+        studio.wait()
+    grown = studio.state()
+    assert grown["leaves"] > 20 and grown["digest"] == state["digest"], grown
+    run.picture("grove-grown")
+
+
+def test_arrange(run):
+    """a tree is moved by its handle, others are painted and taken out, a road is drawn"""
+    studio = run.studio
+    studio.click(studio.middle("tool-move"))
+    studio.click(studio.point(1.5, -0.5, 0))
+    assert studio.state()["selected"].endswith("place#1"), studio.state()
+    foot = studio.point(1.5, -0.5, 0)
+    studio.drag(foot, [foot[0] + 60, foot[1] + 30])
+    studio.wait()
+    assert studio.state()["steps"] == 4, "a drag is one step"
+    assert studio.text(run.home).count("<place") == 4
+    run.picture("grove-moved")
+    studio.pointer("key", "Delete")
+    studio.wait()
+    assert studio.text(run.home).count("<place") == 3
+    studio.pointer("key", "b")
+    studio.drag(studio.point(-2, -2, 0), studio.point(1, -2, 0))
+    studio.wait()
+    painted = studio.text(run.home).count("<place")
+    assert painted > 3 and studio.state()["steps"] == 6, studio.state()
+    studio.pointer("key", "x")
+    studio.drag(studio.point(-2, -2, 0), studio.point(1, -2, 0))
+    studio.wait()
+    assert studio.text(run.home).count("<place") < painted
+    studio.pointer("key", "r")
+    studio.drag(studio.point(-2, 0.8, 0), studio.point(2, 1, 0))
+    studio.wait()
+    assert studio.text(run.home).count("<obstacle") == 2 and studio.state()["problems"] == 0
+    studio.pointer("key", "e")
+    foot = studio.point(0, 0, 0.1)
+    studio.drag([foot[0] + 5, foot[1]], [foot[0] + 60, foot[1] - 120])
+    studio.wait()
+    assert "envelope=" in studio.text(run.home)
+    run.picture("grove-arranged")
+    studio.pointer("key", "Escape")
+    while studio.state()["steps"] > 0:
+        studio.ask("do undo")
+    studio.wait()
+    assert studio.text(run.home) == GROVE
 
 
 def test_flower(run):
@@ -442,7 +525,7 @@ def test_killed(run):
     assert run.studio.quit() == 0
 
 
-TESTS = [test_welcome, test_examples, test_lsystem, test_light, test_sketch, test_device, test_flower, test_link, test_slider, test_curve, test_view, test_hand,
+TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_light, test_sketch, test_device, test_flower, test_link, test_slider, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
 

@@ -1,6 +1,6 @@
 #include "studio/model/builder.h"
 
-#include "frond/contents.h"
+#include "studio/model/clocks.h"
 #include "studio/model/grower.h"
 #include "studio/model/painter.h"
 #include "studio/model/picked.h"
@@ -32,13 +32,15 @@ struct StudioBuilder {
     Request *waiting;     // NULL: none
     FrProgress *progress; // of what runs; NULL: nothing runs
     gint64 began;
-    StudioBuilt *built; // to be collected; NULL: none
-    bool is_held;       // collected and not released
-    bool is_over;       // the thread shall end
-    bool is_look_due;   // what stands shall be looked at
-    bool is_looking;    // that is what runs
-    uint64_t collected; // greatest revision collected so far
-    gint fraction;      // atomic, in thousandths
+    StudioBuilt *built;   // to be collected; NULL: none
+    bool is_held;         // collected and not released
+    bool is_over;         // the thread shall end
+    bool is_look_due;     // what stands shall be looked at
+    bool is_looking;      // that is what runs
+    uint64_t collected;   // greatest revision collected so far
+    gint fraction;        // atomic, in thousandths
+    StudioGround *ground; // of the last build; NULL: level
+    GArray *stands;       // StudioStand, of the last build
     // Of the thread alone:
     StudioWatch watch; // NULL: nobody looks
     void *watcher;
@@ -47,6 +49,7 @@ struct StudioBuilder {
     StudioGrower *grower;
     FrPool *pool;
     StudioView *view;
+    const FrScene *scene; // what is shown and can be picked from while nothing runs; NULL
 };
 
 static void request_free(Request *request) {
@@ -98,49 +101,6 @@ static double seconds_since(gint64 began) {
     return (double)(g_get_monotonic_time() - began) * 1e-6;
 }
 
-// Appends bytes of a text, or what takes the place of `origin`, with where they come from.
-static void append_from(GString *out, GArray *origins, const char *text, size_t size,
-                        uint32_t origin, bool is_copy) {
-    g_string_append_len(out, text, (gssize)size);
-    for (size_t i = 0; i < size; i++) {
-        uint32_t place = origin + (is_copy ? (uint32_t)i : 0);
-        g_array_append_val(origins, place);
-    }
-}
-
-// The text with the clocks of all plants set; places of diagnostics stay those of the document. A
-// text that is not well-formed stays as it is.
-static FrSource *at_time(FrSource *source, double time, const FrContext *context) {
-    FrContents *contents;
-    FrContext silent = *context;
-    silent.diags = NULL;
-    if (isnan(time) || fr_contents_read(source, &silent, &contents) != FR_OK) {
-        return fr_source_ref(source);
-    }
-    char value[G_ASCII_DTOSTR_BUF_SIZE];
-    g_ascii_dtostr(value, sizeof value, time);
-    size_t size;
-    const char *text = fr_source_text(source, &size);
-    GString *out = g_string_sized_new(size + 64);
-    GArray *origins = g_array_sized_new(FALSE, FALSE, sizeof(uint32_t), (guint)size + 64);
-    uint32_t at = 0;
-    for (uint32_t plant = fr_contents_child(contents, 0, "plant"); plant != FR_NONE;
-         plant = fr_contents_sibling(contents, plant)) {
-        FrSplice splice = fr_contents_set(contents, plant, "time", value);
-        append_from(out, origins, text + at, splice.begin - at, at, true);
-        append_from(out, origins, splice.text, strlen(splice.text), splice.begin, false);
-        at = splice.end;
-        g_free(splice.text);
-    }
-    append_from(out, origins, text + at, size - at + 1, at, true); // with the zero behind it
-    FrSource *result = fr_source_within(source, out->str, out->len - 1,
-                                        (const uint32_t *)(const void *)origins->data);
-    g_string_free(out, TRUE);
-    g_array_unref(origins);
-    fr_contents_free(contents);
-    return result;
-}
-
 // Pictures of looks that are new are made elsewhere; what they cost does not hold up the build.
 static void paint_looks(StudioBuilder *builder) {
     for (guint p = 0; p < builder->view->plants->len; p++) {
@@ -184,6 +144,7 @@ static void adopt_view(StudioBuilder *builder, StudioView *view, const FrContext
     }
     studio_view_free(old);
     builder->view = view;
+    builder->scene = view->scene;
     if (count_nodes(view) >= COARSE_FROM) {
         studio_view_add_coarse(view, context);
     }
@@ -202,6 +163,7 @@ static FrStatus grow(StudioBuilder *builder, const Request *request, FrDocument 
         fr_document_free(document);
         return status;
     }
+    builder->scene = NULL;
     FrStatus gone = studio_grower_go(builder->grower, step, context);
     StudioView *view;
     FrContext calm = *context; // what has grown is shown, cancelled or not
@@ -232,14 +194,31 @@ static FrStatus rebuild(StudioBuilder *builder, FrDocument *document, const FrCo
     return status;
 }
 
+// Tells the main thread of the ground, and where plants stand.
+static void hand_ground(StudioBuilder *builder, StudioGround *ground) {
+    GArray *stands = g_array_new(FALSE, FALSE, sizeof(StudioStand));
+    for (uint32_t i = 0; i < fr_scene_stand_count(builder->scene); i++) {
+        const FrStand *from = &g_array_index(builder->scene->stands, FrStand, i);
+        StudioStand stand = {{from->at[0], from->at[1], from->at[2]}, from->origin};
+        g_array_append_val(stands, stand);
+    }
+    g_mutex_lock(&builder->lock);
+    studio_ground_unref(builder->ground);
+    g_clear_pointer(&builder->stands, g_array_unref);
+    builder->ground = ground;
+    builder->stands = stands;
+    g_mutex_unlock(&builder->lock);
+}
+
 static FrStatus build(StudioBuilder *builder, const Request *request, const FrContext *context,
                       StudioBuilt *built) {
     gint64 began = g_get_monotonic_time();
-    FrSource *source = at_time(request->source, request->moment.time, context);
+    FrSource *source = studio_source_at_time(request->source, request->moment.time, context);
     FrDocument *document;
     FrStatus status = fr_document_parse(source, request->folder, context, &document);
     built->times.read = seconds_since(began);
     began = g_get_monotonic_time();
+    StudioGround *ground = status == FR_OK ? studio_ground_new(document, context) : NULL;
     if (status != FR_OK) {
         fr_document_free(document);
     } else if (studio_grower_is_wanted(document)) {
@@ -251,6 +230,9 @@ static FrStatus build(StudioBuilder *builder, const Request *request, const FrCo
     if (built->view != NULL) {
         built->counts = count_instances(builder->view->scene);
         paint_looks(builder);
+        hand_ground(builder, ground);
+    } else {
+        studio_ground_unref(ground);
     }
     fr_source_unref(source);
     return status;
@@ -361,6 +343,8 @@ void studio_builder_free(StudioBuilder *builder) {
     }
     studio_painter_free(builder->painter);
     studio_view_free(builder->view);
+    studio_ground_unref(builder->ground);
+    g_clear_pointer(&builder->stands, g_array_unref);
     built_free(builder->built);
     request_free(builder->waiting);
     fr_rebuild_free(builder->rebuild);
@@ -455,11 +439,15 @@ bool studio_builder_is_painting(StudioBuilder *builder) {
     return studio_painter_is_busy(builder->painter);
 }
 
+// What is shown, while nothing changes it; NULL. Under the lock.
+static const FrScene *shown_scene(const StudioBuilder *builder) {
+    return builder->progress == NULL || builder->is_looking ? builder->scene : NULL;
+}
+
 bool studio_builder_pick(StudioBuilder *builder, const double origin[3], const double direction[3],
                          double spread, StudioPicked *picked) {
     g_mutex_lock(&builder->lock); // nothing begins while it is held
-    bool is_still = builder->progress == NULL || builder->is_looking;
-    const FrScene *scene = is_still ? fr_rebuild_scene(builder->rebuild) : NULL;
+    const FrScene *scene = shown_scene(builder);
     FrPick pick;
     bool is_met = scene != NULL && fr_scene_pick(scene, origin, direction, spread, &pick);
     if (is_met) {
@@ -467,4 +455,35 @@ bool studio_builder_pick(StudioBuilder *builder, const double origin[3], const d
     }
     g_mutex_unlock(&builder->lock);
     return is_met;
+}
+
+StudioHit studio_builder_hit(StudioBuilder *builder, const double origin[3],
+                             const double direction[3], double spread) {
+    g_mutex_lock(&builder->lock);
+    const FrScene *scene = shown_scene(builder);
+    StudioHit hit = studio_ground_hit(builder->ground, scene, origin, direction, spread);
+    g_mutex_unlock(&builder->lock);
+    return hit;
+}
+
+StudioGround *studio_builder_ground(StudioBuilder *builder) {
+    g_mutex_lock(&builder->lock);
+    StudioGround *ground = studio_ground_ref(builder->ground);
+    g_mutex_unlock(&builder->lock);
+    return ground;
+}
+
+GArray *studio_builder_stands(StudioBuilder *builder) {
+    g_mutex_lock(&builder->lock);
+    GArray *stands = builder->stands != NULL ? g_array_ref(builder->stands)
+                                             : g_array_new(FALSE, FALSE, sizeof(StudioStand));
+    g_mutex_unlock(&builder->lock);
+    return stands;
+}
+
+bool studio_builder_bounds(StudioBuilder *builder, uint32_t origin, double min[3], double max[3]) {
+    g_mutex_lock(&builder->lock);
+    bool is_there = studio_ground_bounds(shown_scene(builder), origin, min, max);
+    g_mutex_unlock(&builder->lock);
+    return is_there;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "frond/growth.h"
+#include "studio/model/ground.h"
 #include "studio/model/view.h"
 
 typedef struct StudioBuilder StudioBuilder;
@@ -98,3 +99,22 @@ bool studio_builder_is_painting(StudioBuilder *builder);
 bool studio_builder_pick(StudioBuilder *builder, const double origin[3], const double direction[3],
                          double spread, StudioPicked *picked);
 void studio_picked_clear(StudioPicked *picked);
+
+// ---- the scene below the pointer; see ground.h --------------------------------------------------
+
+/// A plant that stands somewhere, of the last build.
+typedef struct StudioStand {
+    double at[3];
+    uint32_t origin; ///< as FrStand.origin
+} StudioStand;
+
+/// What a ray meets first; while a build runs, of the ground alone.
+StudioHit studio_builder_hit(StudioBuilder *builder, const double origin[3],
+                             const double direction[3], double spread);
+/// The ground of the last build, a reference; NULL: level, before the first.
+StudioGround *studio_builder_ground(StudioBuilder *builder);
+/// The box around all that an element of the document has placed (its byte, as FrStand.origin).
+/// False: nothing, or a build runs.
+bool studio_builder_bounds(StudioBuilder *builder, uint32_t origin, double min[3], double max[3]);
+/// Where plants stand (StudioStand). Free with g_array_unref().
+GArray *studio_builder_stands(StudioBuilder *builder);

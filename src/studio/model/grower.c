@@ -2,6 +2,8 @@
 
 #include "frond/simulation.h"
 
+#include <cglm/struct.h>
+
 enum { STEPS_BACK = 200 };
 
 struct StudioGrower {
@@ -48,10 +50,26 @@ void studio_grower_free(StudioGrower *grower) {
     }
 }
 
+static bool is_same_place(const FrPlace *a, const FrPlace *b) {
+    return g_strcmp0(a->plant, b->plant) == 0 && glms_vec3_eqv(a->at, b->at) && a->seed == b->seed;
+}
+
+// Whether all that a document places by hand is still placed by another one, in the same order,
+// perhaps among more: a plant that has been taken out or moved has never grown where it was.
+static bool keeps_places(const FrDocument *document, const FrDocument *next) {
+    const GPtrArray *old = fr_document_places(document), *new = fr_document_places(next);
+    guint kept = 0;
+    for (guint i = 0; i < new->len &&kept < old->len; i++) {
+        kept += is_same_place(g_ptr_array_index(old, kept), g_ptr_array_index(new, i));
+    }
+    return kept == old->len && fr_document_rows(document)->len <= fr_document_rows(next)->len &&
+           fr_document_strews(document)->len <= fr_document_strews(next)->len;
+}
+
 // Lets what has grown go on by another text; false if it cannot.
 static bool change(StudioGrower *grower, FrDocument *document, FrDigest digest,
                    const FrContext *context) {
-    if (grower->simulation == NULL) {
+    if (grower->simulation == NULL || !keeps_places(grower->document, document)) {
         return false;
     }
     FrContext silent = *context;

@@ -3,13 +3,12 @@
 #pragma once
 
 #include "studio/model/lamps.h"
+#include "studio/model/values.h"
 
 /// Fills a struct of a table from the attributes of an element (FR_NONE: defaults); free with
 /// fr_params_clear().
 void studio_read_params(const StudioDocument *document, uint32_t element, const FrParamTable *table,
                         void *params);
-/// "1, 2.5, 0" with digits enough for a span in metres. Free with g_free().
-char *studio_vector_text(const double at[3], double span);
 /// An id that nothing in the document has. Free with g_free().
 char *studio_free_name(const StudioDocument *document, const char *stem);
 /// Two unit vectors across a direction.

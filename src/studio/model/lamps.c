@@ -79,18 +79,6 @@ static bool insert(StudioDocument *document, GArray *splices, const char *xml, c
     return is_done;
 }
 
-char *studio_vector_text(const double at[3], double span) {
-    char *parts[3];
-    for (int i = 0; i < 3; i++) {
-        parts[i] = studio_value_text(at[i], span);
-    }
-    char *text = g_strdup_printf("%s, %s, %s", parts[0], parts[1], parts[2]);
-    for (int i = 0; i < 3; i++) {
-        g_free(parts[i]);
-    }
-    return text;
-}
-
 static bool can_change(const StudioDocument *document) {
     return studio_document_contents(document) != NULL && !studio_document_is_broken(document);
 }

@@ -29,6 +29,18 @@ char *studio_value_text(double value, double span) {
     return g_strdup(strcmp(text, "-0") == 0 ? "0" : text);
 }
 
+char *studio_vector_text(const double at[3], double span) {
+    char *parts[3];
+    for (int i = 0; i < 3; i++) {
+        parts[i] = studio_value_text(at[i], span);
+    }
+    char *text = g_strdup_printf("%s, %s, %s", parts[0], parts[1], parts[2]);
+    for (int i = 0; i < 3; i++) {
+        g_free(parts[i]);
+    }
+    return text;
+}
+
 char *studio_count_text(uint64_t count) {
     char digits[24];
     int length = g_snprintf(digits, sizeof digits, "%" G_GUINT64_FORMAT, count);

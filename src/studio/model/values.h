@@ -8,6 +8,8 @@
 bool studio_value_is_number(const char *text, double *value);
 /// A number with no more digits than a handle needs for a span. Free with g_free().
 char *studio_value_text(double value, double span);
+/// "x, y, z", each as above. Free with g_free().
+char *studio_vector_text(const double at[3], double span);
 /// A count in groups of three digits: 207 000. Free with g_free().
 char *studio_count_text(uint64_t count);
 /// What a slider runs over: the hard range where that is of a handy size, else some range about the

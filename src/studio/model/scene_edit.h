@@ -1,0 +1,50 @@
+/// @file scene_edit.h
+/// What a person does to the scene of a document, each one step that can be undone. All return
+/// false if nothing changed. Places are in metres; z is up. With a `key` calls in a row are one
+/// step, as in studio_history_replace().
+#pragma once
+
+#include "frond/surroundings.h"
+#include "studio/model/camera.h"
+#include "studio/model/document.h"
+
+/// Where a plant is to stand; `turn` in degrees, `seed` < 0: that of the plant.
+typedef struct StudioSpot {
+    double at[3]; ///< z counts from the ground
+    double turn, scale;
+    int64_t seed;
+} StudioSpot;
+
+/// The last child of the scene of that tag; FR_NONE. What has been added last stands there.
+uint32_t studio_scene_last(const StudioDocument *document, const char *tag);
+/// Whether plants are placed; else the first plant is shown at the origin.
+bool studio_scene_has_places(const StudioDocument *document);
+/// Whether a plant (its element) grows bud by bud: it has no size and turn of its own.
+bool studio_scene_is_species(const StudioDocument *document, uint32_t plant);
+
+/// Plants a plant (its id) at spots. What was shown at the origin because nothing was placed is
+/// placed there, so that it stays.
+bool studio_plant(StudioDocument *document, const char *plant, const StudioSpot *spots,
+                  size_t count, const char *key);
+/// Places what is shown at the origin because nothing is placed.
+bool studio_place_first(StudioDocument *document);
+/// Takes elements of the scene out; of a road both of its parts.
+bool studio_take_out(StudioDocument *document, const uint32_t *elements, size_t count,
+                     const char *key);
+
+/// Adds an obstacle of a shape ("box", "sphere", …) of that size; `file` is that of a mesh or NULL.
+bool studio_add_obstacle(StudioDocument *document, const char *shape, const double at[3],
+                         const double size[3], const char *file);
+/// Adds a road along points (double[3]) and, invisible, what keeps plants off it to a height.
+bool studio_add_road(StudioDocument *document, const GArray *points, double width, double height);
+/// Makes a file the ground, of that extent; NULL: level ground again.
+bool studio_set_terrain(StudioDocument *document, const char *file, const double size[3]);
+/// The outline (radius, height: double[2]) that a species grows within; empty: none.
+bool studio_set_envelope(StudioDocument *document, uint32_t plant, const GArray *outline,
+                         const char *key);
+/// Keeps where the camera is as a view of that name, in the place of one that is called so.
+bool studio_save_view(StudioDocument *document, const char *name, const StudioCamera *camera);
+
+/// A file as a document names it: relative to its folder where it lies in there. Free with
+/// g_free().
+char *studio_file_name(const StudioDocument *document, const char *path);
