@@ -114,6 +114,10 @@ static gboolean on_key(GtkEventControllerKey *controller, guint key, guint code,
             return TRUE;
         }
     }
+    if (key == GDK_KEY_a) {
+        return gtk_widget_activate_action(GTK_WIDGET(tool->window->viewport), "win.frame-all",
+                                          NULL);
+    }
     if (key == GDK_KEY_Delete && tool->has_standing) {
         return gtk_widget_activate_action(GTK_WIDGET(tool->window->viewport), "win.remove", NULL);
     }

@@ -1,6 +1,7 @@
 /// What a window does when told to: every command is an action, so that menus, keys and tests use
 /// the same way.
 #include "studio/model/scene_edit.h"
+#include "studio/views_menu.h"
 #include "studio/window_private.h"
 
 #include <math.h>
@@ -12,6 +13,7 @@ static GtkFileFilter *document_filter(void) {
     GtkFileFilter *filter = gtk_file_filter_new();
     gtk_file_filter_set_name(filter, "Plants (.frond, .l)");
     gtk_file_filter_add_pattern(filter, "*.frond");
+    gtk_file_filter_add_pattern(filter, "*.l");
     return filter;
 }
 
@@ -275,7 +277,10 @@ static void do_select(GSimpleAction *action, GVariant *parameter, gpointer data)
 static void do_frame(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
     (void)parameter;
-    studio_viewport_frame_all(((StudioWindow *)data)->viewport);
+    StudioWindow *window = data;
+    if (!studio_frame_selected(window)) {
+        studio_viewport_frame_all(window->viewport);
+    }
 }
 
 static void do_zoom(GSimpleAction *action, GVariant *parameter, gpointer data) {

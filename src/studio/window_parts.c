@@ -1,4 +1,5 @@
 /// What a window is made of.
+#include "studio/views_menu.h"
 #include "studio/window_private.h"
 
 #include <string.h>
@@ -168,7 +169,7 @@ static GtkWidget *make_side(StudioWindow *window) {
     return box;
 }
 
-static GtkWidget *make_modes(void) {
+static GtkWidget *make_modes(StudioWindow *window) {
     static const char *const modes[][3] = {
         {"Shaded", "shaded", "Surfaces in sun and shade (1)"},
         {"Wireframe", "wireframe", "The edges of all triangles (2)"},
@@ -186,8 +187,9 @@ static GtkWidget *make_modes(void) {
     GtkWidget *tools = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
     gtk_widget_add_css_class(tools, "viewport-tools");
     gtk_box_append(GTK_BOX(tools), box);
-    gtk_box_append(GTK_BOX(tools),
-                   icon_button("zoom-fit-best-symbolic", "win.frame", "Show all (F)"));
+    gtk_box_append(GTK_BOX(tools), icon_button("zoom-fit-best-symbolic", "win.frame",
+                                               "Show what is selected, or all (F)"));
+    gtk_box_append(GTK_BOX(tools), studio_views_button_new(window));
     gtk_widget_set_halign(tools, GTK_ALIGN_END);
     gtk_widget_set_valign(tools, GTK_ALIGN_START);
     return tools;
@@ -274,7 +276,7 @@ static GtkWidget *make_middle(StudioWindow *window) {
     gtk_widget_set_valign(window->amount, GTK_ALIGN_START);
     gtk_widget_set_can_target(window->amount, FALSE);
     gtk_overlay_add_overlay(overlay, window->amount);
-    gtk_overlay_add_overlay(overlay, make_modes());
+    gtk_overlay_add_overlay(overlay, make_modes(window));
     gtk_overlay_add_overlay(overlay, make_picked(window));
     gtk_overlay_add_overlay(overlay, make_problem(window));
     gtk_overlay_add_overlay(overlay, make_busy(window));

@@ -302,6 +302,34 @@ static void test_killed(void) {
     g_free(folder);
 }
 
+static void test_lsystem(void) {
+    char *folder = g_dir_make_tmp("studio-XXXXXX", NULL);
+    char *file = g_build_filename(folder, "my weed.l", NULL);
+    char *view = g_build_filename(folder, "my weed.v", NULL);
+    const char *text = "Lsystem: 1\nderivation length: 1\naxiom: A\nA --> F\nendlsystem\n";
+    g_assert_true(g_file_set_contents(file, text, -1, NULL));
+    g_assert_true(g_file_set_contents(view, "angle factor: 8\n", -1, NULL));
+    StudioDocument *document;
+    g_assert_cmpint(studio_document_open(file, NULL, &document), ==, FR_OK);
+    g_assert_null(studio_document_path(document));
+    g_assert_cmpstr(studio_document_name(document), ==, "my weed.frond");
+    g_assert_nonnull(strstr(text_of(document), "<plant id=\"my_weed\">"));
+    g_assert_nonnull(strstr(text_of(document), "view=\"my weed.v\""));
+    FrContext context = fr_context_default();
+    FrDocument *read;
+    g_assert_cmpint(fr_document_parse(studio_document_source(document),
+                                      studio_document_folder(document), &context, &read),
+                    ==, FR_OK);
+    fr_document_free(read);
+    studio_document_free(document);
+    g_unlink(view);
+    g_unlink(file);
+    g_rmdir(folder);
+    g_free(view);
+    g_free(file);
+    g_free(folder);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/studio/document/undoing all gives the first bytes", test_undo_all);
@@ -320,5 +348,6 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/document/watchers hear of each change once", test_watchers);
     g_test_add_func("/studio/document/killed while saving 100 times the file is whole",
                     test_killed);
+    g_test_add_func("/studio/document/an L-system becomes a document with its view", test_lsystem);
     return g_test_run();
 }

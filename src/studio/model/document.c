@@ -1,10 +1,13 @@
 #include "studio/model/document.h"
 
+#include "frond/document.h"
 #include "studio/model/history.h"
 
 #include <glib/gstdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const char lsystem_ending[] = ".l";
 
 typedef struct Watcher {
     StudioChanged changed;
@@ -67,6 +70,28 @@ static void adopt_path(StudioDocument *document, const char *path) {
     document->folder = g_path_get_dirname(own);
 }
 
+// The document of a plant that is the L-system of a file. It has no file of its own yet.
+static StudioDocument *document_of_lsystem(const char *path, const char *text) {
+    char *own = g_canonicalize_filename(path, NULL), *folder = g_path_get_dirname(own);
+    char *base = g_path_get_basename(own);
+    base[strlen(base) - strlen(lsystem_ending)] = '\0';
+    char *view = g_strconcat(base, ".v", NULL), *beside = g_build_filename(folder, view, NULL);
+    char *id = g_strdup(base);
+    for (char *at = id; *at != '\0'; at++) {
+        *at = g_ascii_isalnum(*at) ? *at : '_';
+    }
+    bool has_view = g_file_test(beside, G_FILE_TEST_IS_REGULAR);
+    char *whole = fr_document_wrap_lsystem(fr_contents_is_id(id) ? id : "plant", text,
+                                           has_view ? view : NULL);
+    char *name = g_strconcat(base, ".frond", NULL);
+    StudioDocument *document = studio_document_new(whole, strlen(whole), name, folder);
+    char *const strings[] = {name, whole, id, beside, view, base, folder, own};
+    for (size_t i = 0; i < G_N_ELEMENTS(strings); i++) {
+        g_free(strings[i]);
+    }
+    return document;
+}
+
 FrStatus studio_document_open(const char *path, FrDiags *diags, StudioDocument **document) {
     *document = NULL;
     FrStatus status;
@@ -77,9 +102,13 @@ FrStatus studio_document_open(const char *path, FrDiags *diags, StudioDocument *
     }
     size_t size;
     const char *text = fr_source_text(source, &size);
-    *document = studio_document_new(text, size, "", NULL);
-    adopt_path(*document, path);
-    follow_text(*document);
+    if (g_str_has_suffix(path, lsystem_ending)) {
+        *document = document_of_lsystem(path, text);
+    } else {
+        *document = studio_document_new(text, size, "", NULL);
+        adopt_path(*document, path);
+        follow_text(*document);
+    }
     fr_source_unref(source);
     return FR_OK;
 }

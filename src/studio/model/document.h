@@ -14,7 +14,8 @@ typedef void (*StudioChanged)(void *user);
 /// files are that it names (NULL: nowhere).
 StudioDocument *studio_document_new(const char *text, size_t size, const char *name,
                                     const char *folder);
-/// Reads a file. Any text is taken, so that it can be mended.
+/// Reads a file. Any text is taken, so that it can be mended. An L-system (.l) becomes a document
+/// without a file, with the view (.v) beside it if there is one.
 FR_MUST_USE FrStatus studio_document_open(const char *path, FrDiags *diags,
                                           StudioDocument **document);
 void studio_document_free(StudioDocument *document);
