@@ -1,5 +1,6 @@
 /// @file views_menu.h
-/// The views that a document keeps: listed, gone to, kept and removed; and what is selected, framed.
+/// The views that a document keeps: listed, gone to, kept and removed; and what is selected,
+/// framed.
 #pragma once
 
 #include "studio/window.h"
