@@ -38,10 +38,11 @@ static uint64_t seed_of(const FrLderivation *derivation, uint64_t plain) {
 uint32_t fr_linstance_new(FrLderivation *derivation, const FrLunit *unit,
                           const FrContext *context) {
     GPtrArray *instances = derivation->instances;
-    guint slot = instances->len;
-    for (guint i = 1; i < instances->len && slot == instances->len; i++) {
-        slot = g_ptr_array_index(instances, i) == NULL ? i : slot;
+    guint slot = MIN(MAX(derivation->used, 1), instances->len);
+    while (slot < instances->len && g_ptr_array_index(instances, slot) != NULL) {
+        slot++;
     }
+    derivation->used = slot;
     uint64_t variables = derivation->variables + unit->variables;
     if (slot > MOST_INSTANCES || variables > MOST_VARIABLES) {
         FrStatus status =

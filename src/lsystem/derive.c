@@ -386,6 +386,7 @@ static void end_unseen(FrLderivation *derivation) {
             g_free(instance->variables);
             g_free(instance);
             derivation->instances->pdata[i] = NULL;
+            derivation->used = MIN(derivation->used, i);
         }
     }
     fr_linstance_enter(derivation, g_ptr_array_index(derivation->instances, 0));

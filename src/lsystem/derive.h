@@ -31,6 +31,7 @@ struct FrLderivation {
     const FrLview *view;
     FrLstring *string, *other; ///< now, and room for the next
     GPtrArray *instances;      ///< FrLinstance *, some NULL; the first is the main one
+    guint used;                ///< before this one, no instance is NULL
     uint64_t variables;        ///< of all instances
     uint64_t random;           ///< stream A, one for all L-systems of the file
     FrLmachine machine;
