@@ -15,6 +15,8 @@
 #define NEAR 1e-6
 /// How far a tooth leans on at most, over its foot: it does not hang over the next one.
 #define LEAN_MOST 0.97
+/// How far rows go on along the midrib at least, for what they go on along the margin.
+#define APART 0.4
 
 static int compare_reals(const void *a, const void *b) {
     double p = *(const double *)a, q = *(const double *)b;
@@ -121,6 +123,22 @@ static void tooth_row(const FrEdge edges[2], const FrTooth *tooth, const FrTooth
     *row = (FrOutlineRow){fmin(fmax(root, 0.0), 1.0), halves[0], halves[1]};
 }
 
+static double foot_of(const FrNurbsRows *rows, uint32_t row) {
+    return 0.5 * (rows->margins[row][0].along + rows->margins[row][1].along);
+}
+
+/// Rows go on along the midrib by a part of what they go on along the margin, at least.
+static void keep_apart(FrNurbsRows *rows) {
+    for (uint32_t i = 1; i + 1 < rows->count; i++) {
+        double least = APART * fmax(foot_of(rows, i) - foot_of(rows, i - 1), 0.0);
+        rows->rows[i].along = fmax(rows->rows[i].along, rows->rows[i - 1].along + least);
+    }
+    for (uint32_t i = rows->count - 1; i-- > 1;) {
+        double least = APART * fmax(foot_of(rows, i + 1) - foot_of(rows, i), 0.0);
+        rows->rows[i].along = fmin(rows->rows[i].along, rows->rows[i + 1].along - least);
+    }
+}
+
 void fr_nurbs_toothed(const FrBladeForm *form, const FrOutlineRow *base, uint32_t base_count,
                       FrNurbsRows *rows) {
     FrToothStep steps[FR_TOOTH_STEPS_MOST + 1];
@@ -141,10 +159,10 @@ void fr_nurbs_toothed(const FrBladeForm *form, const FrOutlineRow *base, uint32_
         FrToothStep step;
         FrTooth tooth = tooth_over(form, g_array_index(parts, double, i), steps, step_count, &step);
         tooth_row(edges, &tooth, &step, &rows->rows[i], rows->margins[i]);
-        rows->rows[i].along = fmax(rows->rows[i].along, rows->rows[i - 1].along);
     }
     end_row(form, &base[base_count - 1], &rows->rows[parts->len - 1],
             rows->margins[parts->len - 1]);
+    keep_apart(rows);
     g_array_unref(parts);
     fr_edge_clear(&edges[0]);
     fr_edge_clear(&edges[1]);
