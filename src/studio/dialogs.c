@@ -106,6 +106,7 @@ static const Shortcut rows[] = {
     {NULL, "1", "Shaded"},
     {NULL, "2", "Wireframe"},
     {NULL, "3", "Skeleton"},
+    {NULL, "w", "Wind"},
     {NULL, "Left Right Up Down", "Turn; with Shift, move"},
     {NULL, "<Control>plus", "Nearer"},
     {NULL, "<Control>minus", "Farther"},

@@ -144,6 +144,32 @@ static void on_hover(StudioViewport *viewport, double x, double y, StudioLightMo
     }
 }
 
+// Delete takes away the lamp, the date or the light that is selected, and never the scene.
+static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkModifierType state,
+                       StudioLightMode *mode) {
+    (void)keys;
+    (void)code;
+    (void)state;
+    if ((key != GDK_KEY_Delete && key != GDK_KEY_BackSpace) || !has_contents(mode) ||
+        !is_open(mode)) {
+        return FALSE;
+    }
+    static const char *const names[] = {"lamp", "sun", "light", NULL};
+    uint32_t selected = studio_window_selected(mode->window);
+    const FrContents *contents = studio_document_contents(mode->window->document);
+    if (selected == FR_NONE || !g_strv_contains(names, fr_contents_at(contents, selected)->name)) {
+        return FALSE;
+    }
+    g_action_group_activate_action(G_ACTION_GROUP(mode->window), "remove", NULL);
+    return TRUE;
+}
+
+static void listen_to_keys(StudioLightMode *mode, GtkWidget *widget) {
+    GtkEventController *keys = gtk_event_controller_key_new();
+    g_signal_connect(keys, "key-pressed", G_CALLBACK(on_key), mode);
+    gtk_widget_add_controller(widget, keys);
+}
+
 // ---- actions -----------------------------------------------------------------------------------
 
 static const struct {
@@ -285,6 +311,8 @@ StudioLightMode *studio_light_mode_new(StudioWindow *window) {
     g_signal_connect(window->viewport, "drag", G_CALLBACK(on_drag), mode);
     g_signal_connect(window->viewport, "release", G_CALLBACK(on_release), mode);
     g_signal_connect(window->viewport, "hover", G_CALLBACK(on_hover), mode);
+    listen_to_keys(mode, GTK_WIDGET(mode->panel));
+    listen_to_keys(mode, GTK_WIDGET(window->viewport));
     g_signal_connect(window->side, "notify::visible-child", G_CALLBACK(on_page), mode);
     studio_light_layer_set(mode->layer, &mode->wish);
     return mode;

@@ -166,7 +166,7 @@ static void say_found(StudioLightPanel *panel, const StudioSight *sight) {
     }
     if (sight->has_probe) {
         char *from = where_from(&sight->probe);
-        g_string_append_printf(text, "At the probe %.3g, %s, confidence %.0f %%",
+        g_string_append_printf(text, "At the probe %.3g, %s, confidence %.0f\u00a0%%",
                                (double)sight->probe.intensity, from,
                                100 * (double)sight->probe.confidence);
         g_free(from);

@@ -62,7 +62,7 @@ static gboolean on_tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data) 
     if (viewport->is_moving && !viewport->is_dragging && rested > rest_seconds) {
         viewport->is_moving = false;
     }
-    if (viewport->is_moving && rested > rest_seconds) {
+    if (viewport->is_moving && rested > rest_seconds && !viewport->display.has_wind) {
         return G_SOURCE_CONTINUE; // held still: nothing to draw
     }
     gtk_gl_area_queue_render(GTK_GL_AREA(widget));
@@ -81,7 +81,8 @@ static void on_resize(GtkGLArea *area, int width, int height, gpointer data) {
     (void)data;
     StudioViewport *viewport = STUDIO_VIEWPORT(area);
     if (viewport->renderer != NULL) {
-        studio_renderer_resize(viewport->renderer, width, height);
+        studio_renderer_resize(viewport->renderer, width, height,
+                               gtk_widget_get_scale_factor(GTK_WIDGET(area)));
         studio_viewport_wake(viewport);
     }
 }
@@ -95,8 +96,9 @@ static gboolean on_render(GtkGLArea *area, GdkGLContext *context, gpointer data)
     }
     viewport->display.scale = gtk_widget_get_scale_factor(GTK_WIDGET(area));
     viewport->display.cell = studio_camera_step(&viewport->camera, 0.1);
+    viewport->display.time = (double)g_get_monotonic_time() * 1e-6;
     bool has_more = studio_renderer_draw(viewport->renderer, &viewport->camera, &viewport->display,
-                                         viewport->is_moving);
+                                         viewport->is_moving || viewport->display.has_wind);
     if (!has_more && viewport->tick != 0) {
         gtk_widget_remove_tick_callback(GTK_WIDGET(viewport), viewport->tick);
         viewport->tick = 0;
@@ -223,7 +225,7 @@ void studio_viewport_highlight(StudioViewport *viewport, const float (*points)[3
 }
 
 bool studio_viewport_is_done(StudioViewport *viewport) {
-    return viewport->was_done;
+    return viewport->was_done || viewport->display.has_wind;
 }
 
 StudioPace studio_viewport_pace(StudioViewport *viewport) {

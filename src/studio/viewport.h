@@ -51,7 +51,7 @@ void studio_viewport_highlight(StudioViewport *viewport, const float (*points)[3
 void studio_viewport_bounds(StudioViewport *viewport, double min[3], double max[3]);
 /// Width over height of the picture.
 double studio_viewport_aspect(StudioViewport *viewport);
-/// Whether the fine picture of what it holds is shown.
+/// Whether the fine picture of what it holds is shown, or there never will be one in the wind.
 bool studio_viewport_is_done(StudioViewport *viewport);
 StudioPace studio_viewport_pace(StudioViewport *viewport);
 StudioAmount studio_viewport_amount(StudioViewport *viewport);

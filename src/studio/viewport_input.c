@@ -146,7 +146,8 @@ static gboolean on_key(GtkEventControllerKey *controller, guint key, guint code,
     } letters[] = {{GDK_KEY_f, "win.frame"},
                    {GDK_KEY_1, "win.mode::shaded"},
                    {GDK_KEY_2, "win.mode::wireframe"},
-                   {GDK_KEY_3, "win.mode::skeleton"}};
+                   {GDK_KEY_3, "win.mode::skeleton"},
+                   {GDK_KEY_w, "win.wind"}};
     for (size_t i = 0; i < G_N_ELEMENTS(letters); i++) {
         if (key == letters[i].key && (state & (GDK_CONTROL_MASK | GDK_ALT_MASK)) == 0) {
             char *name;

@@ -187,6 +187,12 @@ static GtkWidget *make_modes(StudioWindow *window) {
     GtkWidget *tools = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
     gtk_widget_add_css_class(tools, "viewport-tools");
     gtk_box_append(GTK_BOX(tools), box);
+    GtkWidget *wind = gtk_toggle_button_new();
+    gtk_button_set_icon_name(GTK_BUTTON(wind), "weather-windy-symbolic");
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(wind), "win.wind");
+    gtk_widget_set_tooltip_text(wind, "Let a wind blow, to look at (W)");
+    gtk_accessible_update_property(GTK_ACCESSIBLE(wind), GTK_ACCESSIBLE_PROPERTY_LABEL, "Wind", -1);
+    gtk_box_append(GTK_BOX(tools), wind);
     gtk_box_append(GTK_BOX(tools), icon_button("zoom-fit-best-symbolic", "win.frame",
                                                "Show what is selected, or all (F)"));
     gtk_box_append(GTK_BOX(tools), studio_views_button_new(window));
@@ -307,7 +313,7 @@ GtkWidget *studio_window_make_panes(StudioWindow *window) {
     gtk_paned_set_resize_start_child(outer, FALSE);
     gtk_paned_set_shrink_start_child(outer, FALSE);
     gtk_paned_set_shrink_end_child(outer, FALSE);
-    int side = studio_settings_int(window->settings, "side-width", 300);
+    int side = studio_settings_int(window->settings, "side-width", 380);
     int width = studio_settings_int(window->settings, "width", 1440);
     int inspector = studio_settings_int(window->settings, "inspector-width", 360);
     gtk_paned_set_position(outer, side);

@@ -335,6 +335,10 @@ def test_light(run):
     studio.wait()
     state = studio.state()
     assert state["steps"] == 1 and state["selected"].endswith("lamp:bulb"), state
+    studio.pointer("key", "Delete")
+    studio.wait()
+    assert studio.state()["steps"] == 2
+    studio.ask("do undo")
     studio.ask("do add-lamp::spot")
     for show in ("show-rays", "show-cells", "show-sun"):
         studio.ask("do " + show)

@@ -13,7 +13,7 @@ enum {
     LEAST_BUDGET = 8000,
     MOST_BUDGET = 4000000,
     SLICE_TRIANGLES = 12000,
-    SAMPLES = 2, // of the fine picture, a side of a pixel
+    SAMPLES = 2, // of the fine picture, a side of a pixel of the desktop
 };
 
 static const double slice_seconds = 0.022; // of the fine picture, between two frames
@@ -119,11 +119,12 @@ StudioPace studio_renderer_pace(const StudioRenderer *renderer) {
     return renderer->pace;
 }
 
-void studio_renderer_resize(StudioRenderer *renderer, int width, int height) {
+void studio_renderer_resize(StudioRenderer *renderer, int width, int height, int scale) {
     renderer->width = MAX(width, 1);
     renderer->height = MAX(height, 1);
-    studio_target_resize(&renderer->coarse, renderer->width, renderer->height);
-    studio_target_resize(&renderer->fine, SAMPLES * renderer->width, SAMPLES * renderer->height);
+    int across = MAX(width / scale, 1), down = MAX(height / scale, 1);
+    studio_target_resize(&renderer->coarse, across, down);
+    studio_target_resize(&renderer->fine, SAMPLES * across, SAMPLES * down);
     studio_renderer_invalidate(renderer, false);
 }
 
@@ -165,6 +166,8 @@ static void draw_piece(GLuint program, const StudioPiece *piece) {
     studio_program_float(program, "translucency", piece->translucency);
     studio_program_int(program, "has_picture", piece->picture != 0);
     studio_program_int(program, "is_blade", piece->is_blade);
+    studio_program_int(program, "is_leaf", piece->leaves != 0);
+    studio_program_int(program, "is_still", piece->is_still);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, piece->picture);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, piece->indices);
@@ -189,6 +192,16 @@ static void use_shadow(const Shot *shot, GLuint program) {
     studio_program_matrix(program, "to_shadow", &shot->renderer->to_shadow);
 }
 
+static void use_wind(const Shot *shot, GLuint program) {
+    static const float way[2] = {0.075f, 0.03f};
+    double min[3], max[3];
+    studio_store_bounds(shot->renderer->store, min, max);
+    bool blows = shot->display->has_wind && max[2] > 0;
+    const float gust[4] = {way[0], way[1], (float)fmod(shot->display->time, 3600),
+                           blows ? (float)max[2] : 0};
+    studio_program_vec4(program, "gust", gust);
+}
+
 static GLuint begin_surfaces(const Shot *shot) {
     static const float sun_colour[3] = {2.5f, 2.3f, 1.95f};
     static const float sky[3] = {0.62f, 0.74f, 0.92f}, ground[3] = {0.26f, 0.24f, 0.20f};
@@ -202,6 +215,7 @@ static GLuint begin_surfaces(const Shot *shot) {
     studio_program_vec3(program, "sky_colour", sky);
     studio_program_vec3(program, "ground_colour", ground);
     studio_program_int(program, "picture", 0);
+    use_wind(shot, program);
     use_shadow(shot, program);
     glPolygonMode(GL_FRONT_AND_BACK, shot->display->mode == STUDIO_WIREFRAME ? GL_LINE : GL_FILL);
     return program;
@@ -256,6 +270,7 @@ static void draw_skeletons(Shot *shot) {
     GLuint program = shot->renderer->line;
     glUseProgram(program);
     studio_program_matrix(program, "clip", &shot->clip);
+    use_wind(shot, program);
     studio_store_each_skeleton(shot->renderer->store, draw_skeleton, shot);
 }
 

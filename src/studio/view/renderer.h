@@ -16,8 +16,10 @@ typedef struct StudioDisplay {
     StudioMode mode;
     bool has_shadow, has_occlusion, has_grid;
     bool is_dark;
-    double cell;  ///< m, of the grid
-    double scale; ///< pixels of the framebuffer for one of the desktop's
+    bool has_wind; ///< a coarse picture that never rests
+    double time;   ///< s, for the wind
+    double cell;   ///< m, of the grid
+    double scale;  ///< pixels of the framebuffer for one of the desktop's
 } StudioDisplay;
 
 /// What drawing took; the last of each.
@@ -30,7 +32,9 @@ typedef struct StudioPace {
 StudioRenderer *studio_renderer_new(GError **error);
 void studio_renderer_free(StudioRenderer *renderer);
 StudioStore *studio_renderer_store(StudioRenderer *renderer);
-void studio_renderer_resize(StudioRenderer *renderer, int width, int height);
+/// Pixels of the framebuffer, and how many make one of the desktop's along a side: a dense screen
+/// takes no longer than another.
+void studio_renderer_resize(StudioRenderer *renderer, int width, int height, int scale);
 /// The camera or the display has changed; with `is_geometry` what stands there, too.
 void studio_renderer_invalidate(StudioRenderer *renderer, bool is_geometry);
 /// The overlay of that name is this one, which stays the caller's; NULL: there is none any more.

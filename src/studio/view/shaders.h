@@ -2,6 +2,20 @@
 /// The programs of the viewport, GLSL 3.30.
 #pragma once
 
+/// Wind as a preview: what is higher gives way farther, in gusts that run over the ground. `gust`
+/// is which way and how far, parts of the height; the time in seconds; the height, m, 0 for no
+/// wind.
+#define STUDIO_SWAY                                                                                \
+    "uniform vec4 gust;\n"                                                                         \
+    "vec3 sway(vec3 p) {\n"                                                                        \
+    "    if (gust.w <= 0.0) return vec3(0.0);\n"                                                   \
+    "    float h = clamp(p.z / gust.w, 0.0, 1.5), t = gust.z;\n"                                   \
+    "    float run = dot(p.xy, vec2(2.1, 1.7)) / gust.w;\n"                                        \
+    "    vec2 d = gust.xy * gust.w * h * h * (0.55 + 0.3 * sin(1.3 * t - run)\n"                   \
+    "                                         + 0.15 * sin(3.1 * t - 2.3 * run + 4.0 * h));\n"     \
+    "    return vec3(d, -0.5 * dot(d, d) / max(p.z, 0.001));\n"                                    \
+    "}\n"
+
 /// Vertices of tubes and of instanced leaves; what is not instanced has a constant placement.
 #define STUDIO_PLACE                                                                               \
     "#version 330 core\n"                                                                          \
@@ -12,10 +26,17 @@
     "layout(location=4) in vec4 turn;\n"                                                           \
     "uniform mat4 model;\n"                                                                        \
     "uniform mat4 clip;\n"                                                                         \
-    "uniform float enlarge;\n"                                                                     \
+    "uniform float enlarge; uniform bool is_leaf, is_still;\n" STUDIO_SWAY                         \
     "vec3 turned(vec3 v) { return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v); }\n" \
-    "vec4 placed() { return model * vec4(\n"                                                       \
-    "    turned(position) * placement.w * enlarge + placement.xyz, 1.0); }\n"
+    "vec4 placed() {\n"                                                                            \
+    "    vec4 at = model * vec4(turned(position) * placement.w * enlarge + placement.xyz, 1.0);\n" \
+    "    if (gust.w <= 0.0 || is_still) return at;\n"                                              \
+    "    vec3 foot = is_leaf ? (model * vec4(placement.xyz, 1.0)).xyz : at.xyz;\n"                 \
+    "    vec3 blade = at.xyz - foot;\n"                                                            \
+    "    float beat = sin(7.0 * gust.z + dot(foot, vec3(127.0, 83.0, 59.0)) / gust.w);\n"          \
+    "    blade += cross(vec3(-gust.y, gust.x, 0.0) * 4.0 * beat, blade);\n"                        \
+    "    return vec4(foot + blade + sway(foot), 1.0);\n"                                           \
+    "}\n"
 
 static const char studio_surface_vertex[] =
     STUDIO_PLACE "out vec3 at; out vec3 facing; out vec2 tile;\n"
@@ -116,12 +137,12 @@ static const char studio_floor_fragment[] =
 static const char studio_line_vertex[] =
     "#version 330 core\n"
     "layout(location=0) in vec3 position; layout(location=1) in float order;\n"
-    "uniform mat4 model, clip; out vec4 shown;\n"
-    "void main() {\n"
+    "uniform mat4 model, clip; out vec4 shown;\n" STUDIO_SWAY "void main() {\n"
     "    float t = clamp(order / 4.0, 0.0, 1.0);\n"
     "    vec3 by_order = mix(vec3(0.93, 0.78, 0.55), vec3(0.45, 0.80, 0.42), t);\n"
     "    shown = vec4(by_order, 1.0);\n"
-    "    gl_Position = clip * model * vec4(position, 1.0);\n"
+    "    vec4 at = model * vec4(position, 1.0);\n"
+    "    gl_Position = clip * vec4(at.xyz + sway(at.xyz), 1.0);\n"
     "}\n";
 static const char studio_line_fragment[] =
     "#version 330 core\n"

@@ -38,6 +38,7 @@ typedef struct Plant {
 typedef struct Stand {
     mat4s model;
     uint32_t plant;
+    bool is_still; // an obstacle
 } Stand;
 
 struct StudioStore {
@@ -294,7 +295,7 @@ void studio_store_update(StudioStore *store, const StudioView *view) {
     g_array_set_size(store->stands, 0);
     for (guint i = 0; i < view->scene->stands->len; i++) {
         const FrStand *from = &g_array_index(view->scene->stands, FrStand, i);
-        Stand stand = {model_of(from), from->plant};
+        Stand stand = {model_of(from), from->plant, i >= fr_scene_stand_count(view->scene)};
         g_array_append_val(store->stands, stand);
     }
     fr_scene_bounds(view->scene, store->min, store->max);
@@ -369,6 +370,7 @@ static StudioPiece piece_of(const StudioStore *store, const Stand *stand, const 
                          .index_count = part->index_count,
                          .enlarge = 1,
                          .is_blade = part->is_blade,
+                         .is_still = stand->is_still,
                          .triangles = part->index_count / 3};
     dress(store, plant, material, &piece);
     return piece;

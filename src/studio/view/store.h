@@ -22,6 +22,7 @@ typedef struct StudioPiece {
     float tint[3];
     float cutoff, translucency;
     bool is_blade;
+    bool is_still; ///< no wind moves it
     uint64_t triangles;
 } StudioPiece;
 
