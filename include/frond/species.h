@@ -99,6 +99,8 @@
       "closed mesh to grow within instead, about the seed: .obj .stl .gltf .glb")                  \
     X(SWITCH, collide, "yes", 0, 1, "", "", "keeps off what is in the way and other branches")     \
     X(INTEGER, box, "3", 1, 9, "", "", "cells of free space around a new tip: odd")                \
+    X(CHOICE, keeps_off, "tip", 0, 0, "", "tip internode",                                         \
+      "the box is kept free around the new tip alone, or all along the new internode")             \
     X(INTEGER, trials, "4", 1, 32, "", "", "directions that a bud tries before it gives up")       \
     X(REAL, trial_angle, "25", 0, 180, "deg", "", "how far they lie apart")                        \
     X(REAL, apex_distance, "0", 0, 1000, "m", "", "stops near an apex of more vigour (Honda)")     \
@@ -183,6 +185,7 @@ enum { FR_TURN_SUM, FR_TURN_PART };
 enum { FR_AXIS_MONOPODIAL, FR_AXIS_SYMPODIAL };
 enum { FR_GROWTH_CONTINUOUS, FR_GROWTH_RHYTHMIC, FR_GROWTH_BASAL };
 enum { FR_BEARING_UPRIGHT, FR_BEARING_LEVEL, FR_BEARING_BENT };
+enum { FR_KEEPS_OFF_TIP, FR_KEEPS_OFF_INTERNODE };
 enum { FR_LEAVES_NATURAL, FR_LEAVES_HORIZONTAL, FR_LEAVES_LIT };
 enum { FR_MAX_ORDERS = 8 };
 

@@ -97,15 +97,19 @@ static inline bool part_blocks(const Asked *asked, const FrBrick *brick, FrCell 
     return false;
 }
 
-/// The box around the tip: true if something is in the way in it.
-static inline bool box_blocks(const Asked *asked, FrCell tip) {
+static const FrSpeciesParams *params_of(const Asked *asked) {
     const FrGrowth *growth = asked->growth;
-    const FrGrownPlant *plant = &growth->plants[asked->proposal->plant];
-    int half = (int)fr_species_of(growth, plant)->params.box / 2;
+    return &fr_species_of(growth, &growth->plants[asked->proposal->plant])->params;
+}
+
+/// The box around a cell: true if something is in the way in it.
+static inline bool box_blocks(const Asked *asked, FrCell cell) {
+    const FrGrowth *growth = asked->growth;
+    int half = (int)params_of(asked)->box / 2;
     int low[3], high[3];
     for (int axis = 0; axis < 3; axis++) {
-        low[axis] = MAX(tip.at[axis] - half, 0);
-        high[axis] = MIN(tip.at[axis] + half, FR_VOXELS_WIDTH - 1);
+        low[axis] = MAX(cell.at[axis] - half, 0);
+        high[axis] = MIN(cell.at[axis] + half, FR_VOXELS_WIDTH - 1);
     }
     int brick[3];
     for (brick[2] = low[2] >> 3; brick[2] <= high[2] >> 3; brick[2]++) {
@@ -132,12 +136,16 @@ static inline bool box_blocks(const Asked *asked, FrCell tip) {
 /// The cells of the segment, without the first, in which its bearer stands.
 static inline bool segment_blocks(const Asked *asked) {
     FrBrick *brick = NULL;
+    bool has_boxes = params_of(asked)->keeps_off == FR_KEEPS_OFF_INTERNODE;
     for (uint32_t i = 1; i < asked->proposal->cell_count; i++) {
         FrCell cell = asked->cells[i];
         brick = fr_voxels_next_brick(asked->growth->voxels, asked->cells, i, brick);
         if (brick != NULL &&
             (bits_of(brick, asked->question)[cell.at[2] & 7] >> fr_voxels_bit(cell) & 1) != 0 &&
             cell_blocks(asked, brick, cell)) {
+            return true;
+        }
+        if (has_boxes && box_blocks(asked, cell)) {
             return true;
         }
     }

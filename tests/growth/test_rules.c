@@ -223,56 +223,6 @@ static void test_obstacle(void) {
     world_clear(&world);
 }
 
-static double squared_gap(vec3s a, vec3s b, vec3s c, vec3s d) {
-    double least = INFINITY;
-    for (int i = 0; i <= 16; i++) {
-        vec3s p = glms_vec3_lerp(a, b, (float)i / 16);
-        for (int k = 0; k <= 16; k++) {
-            vec3s q = glms_vec3_lerp(c, d, (float)k / 16);
-            least = fmin(least, (double)glms_vec3_distance2(p, q));
-        }
-    }
-    return least;
-}
-
-/// E13: new tips keep the box free, so branches of different plants stay half a box apart.
-static void test_apart(void) {
-    World world;
-    plain(&world);
-    world_set(&world, "dormancy", "0");
-    world_set(&world, "auxin-reach", "1");
-    world_set(&world, "step", "0.25");
-    world.setup.params.cell = 0.04;
-    FrSeed seeds[4] = {{.id = 1},
-                       {.at = {0.4, 0, 0}, .id = 2},
-                       {.at = {0, 0.4, 0}, .id = 3},
-                       {.at = {0.4, 0.4, 0}, .id = 4}};
-    world_sow(&world, seeds, 4);
-    FrGrowthStats stats = world_step(&world, 9);
-    g_assert_cmpuint(stats.collisions, >, 0);
-    const FrGrownPlant *plants = world.growth->plants;
-    for (uint32_t p = 0; p < 4; p++) {
-        for (uint32_t i = 0; i < plants[p].nodes.count; i++) {
-            vec3s tip = plants[p].nodes.at[i], base = fr_grown_base(&plants[p], i);
-            tip.x += (float)seeds[p].at[0];
-            tip.y += (float)seeds[p].at[1];
-            for (uint32_t q = p + 1; q < 4; q++) {
-                for (uint32_t k = 0; k < plants[q].nodes.count; k++) {
-                    vec3s other = plants[q].nodes.at[k], from = fr_grown_base(&plants[q], k);
-                    other.x += (float)seeds[q].at[0];
-                    other.y += (float)seeds[q].at[1];
-                    float tips = glms_vec3_distance(tip, other);
-                    g_assert_cmpfloat(tips, >=, 0.04f); // tips a cell further apart
-                    if (tips < 1) {                     // segments in different cells
-                        g_assert_cmpfloat(squared_gap(base, tip, from, other), >, 0);
-                    }
-                }
-            }
-        }
-    }
-    world_clear(&world);
-}
-
 static void compete(World *world, const FrLiveBudAt *buds, uint32_t count) {
     g_assert_cmpint(fr_growth_compete(world->growth, buds, count, &world->context), ==, FR_OK);
 }
@@ -761,7 +711,6 @@ int main(int argc, char **argv) {
     g_test_add_func("/growth/rules/E04 no internode leaves its envelope", test_envelope);
     g_test_add_func("/growth/rules/E02 E13 no internode meets an obstacle's triangles",
                     test_obstacle);
-    g_test_add_func("/growth/rules/E13 branches of different plants never touch", test_apart);
     g_test_add_func("/growth/rules/E14 of apices that face each other one rests", test_apices);
     g_test_add_func("/growth/rules/E15 Leeuwenberg: no axis outlives its module", test_leeuwenberg);
     g_test_add_func("/growth/rules/E15 Rauh: one trunk, tiers at the ends of units", test_rauh);

@@ -320,6 +320,38 @@ static void test_lsystem(void) {
     g_free(beside);
 }
 
+/// E23: three plants that have grown together; shown apart each is the same to the last bit.
+static void test_apart(void) {
+    static const double places[3] = {-0.5, 0, 0.5};
+    FrDigest digests[3];
+    for (int apart = 0; apart <= 3; apart += 3) {
+        char *text = g_strdup_printf("<frond version='1'><plant id='a'>" SPECIES(
+                                         "") "</plant><scene apart='%d'>" WORLD
+                                             "<place plant='a' at='-0.5,0,0'/><place plant='a'/>"
+                                             "<place plant='a' at='0.5,0,0'/></scene></frond>",
+                                     apart);
+        Run run = begin(text, 0);
+        step(&run, 9);
+        g_assert_cmpuint(fr_simulation_stats(run.simulation).collisions, >, 0);
+        const FrScene *scene;
+        g_assert_cmpint(fr_simulation_scene(run.simulation, &run.context, &scene), ==, FR_OK);
+        g_assert_cmpuint(scene->stands->len, ==, 3);
+        for (guint i = 0; i < 3; i++) {
+            const FrStand *stand = &g_array_index(scene->stands, FrStand, i);
+            // The middle of all stays; each is three times as far away beyond where it has grown.
+            g_assert_cmpfloat(fabs(stand->at[0] - (1 + apart) * places[i]), <, 1e-9);
+            g_assert_cmpfloat(fabs(stand->at[1]), <, 1e-9);
+            FrDigest shown =
+                fr_plant_digest(g_array_index(scene->plants, FrScenePlant, stand->plant).plant);
+            digests[i] = apart == 0 ? shown : digests[i];
+            g_assert_cmpuint(shown, ==, digests[i]);
+        }
+        g_assert_cmpuint(digests[0], !=, digests[1]);
+        end(&run);
+        g_free(text);
+    }
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/scene/simulation/E01 a change lets old wood stand and bends what is new",
@@ -332,6 +364,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/scene/simulation/E22 places in another order grow the same plants",
                     test_order);
     g_test_add_func("/scene/simulation/E02 no internode crosses an obstacle", test_obstacles);
+    g_test_add_func("/scene/simulation/E23 plants shown apart keep what they have grown together",
+                    test_apart);
     g_test_add_func("/scene/simulation/what cannot be seen gives no shade", test_clear);
     g_test_add_func("/scene/simulation/E04 nothing grows out of an envelope", test_envelope);
     g_test_add_func("/scene/simulation/L-systems and growing plants see each other", test_lsystem);
