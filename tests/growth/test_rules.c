@@ -482,6 +482,49 @@ static void test_particles(void) {
     world_clear(&world);
 }
 
+/// Mean angle between one internode of an axis and the next, with so many particles in the crown.
+static double irregularity(const char *particles) {
+    World world;
+    plain(&world);
+    world_set(&world, "envelope", "1,0 1.5,1 1,3 0,5");
+    world_set(&world, "particles", particles);
+    world_set(&world, "particle-mean", "nearest");
+    world_set(&world, "dormancy", "0");
+    world_set(&world, "auxin-reach", "1");
+    world_set(&world, "influence", "0.6");
+    world_set(&world, "kill", "0.2");
+    world_set(&world, "gravitropism", "0");
+    world_set(&world, "phototropism", "0");
+    world_set(&world, "trials", "1");
+    world.setup.params.light = FR_GROWTH_FULL;
+    world_sow_one(&world);
+    world_step(&world, 10);
+    const FrGrownPlant *plant = &world.growth->plants[0];
+    double turns = 0;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        uint32_t parent = plant->nodes.parent[i];
+        if (parent != FR_NONE && plant->nodes.axis[parent] == plant->nodes.axis[i]) {
+            vec3s before = glms_vec3_sub(fr_grown_tip(plant, parent), fr_grown_base(plant, parent));
+            vec3s after = glms_vec3_sub(fr_grown_tip(plant, i), fr_grown_base(plant, i));
+            turns += (double)glms_vec3_angle(before, after);
+            count++;
+        }
+    }
+    g_assert_cmpuint(count, >, 50);
+    world_clear(&world);
+    return turns / count;
+}
+
+/// E11.
+static void test_irregular(void) {
+    double none = irregularity("0"), some = irregularity("30"), many = irregularity("300");
+    g_test_message("turns of %g, %g and %g", none, some, many);
+    g_assert_cmpfloat(none, <, 0.005);
+    g_assert_cmpfloat(some, >, none + 0.02);
+    g_assert_cmpfloat(many, >, some + 0.02);
+}
+
 /// The published rule: what is reached takes the bud along.
 static void test_particle_and_bud(void) {
     World world;
@@ -725,6 +768,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/growth/rules/a seed beside its envelope is told at its place",
                     test_beside_envelope);
     g_test_add_func("/growth/rules/E11 particles draw buds and die when reached", test_particles);
+    g_test_add_func("/growth/rules/E11 the more particles, the less regular", test_irregular);
     g_test_add_func("/growth/rules/E11 by the published rule the bud dies too",
                     test_particle_and_bud);
     g_test_add_func("/growth/rules/space is colonized alike by any threads and after resuming",
