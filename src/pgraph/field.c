@@ -63,6 +63,17 @@ static const FrField *world_of(const FrFields *fields) {
     return NULL;
 }
 
+// Whether a field is a Force that acts on a stem of this order.
+static bool is_force_on(const FrFields *fields, const FrField *field) {
+    const FrPrepared *prepared = &fields->prepared[field->component];
+    if (prepared->kind != FR_COMPONENT_FORCE) {
+        return false;
+    }
+    int to = ((const FrForceParams *)prepared->params)->apply_to;
+    bool is_further = fields->order > field->order;
+    return to == FR_APPLIES_TO_BOTH || is_further != (to == FR_APPLIES_TO_SELF);
+}
+
 void fr_field_gravity(const FrFields *fields, const double at[3], double gravity[3]) {
     const FrField *world = world_of(fields);
     gravity[0] = gravity[1] = 0;
@@ -149,11 +160,11 @@ static void draw_all(const FrFields *fields, const FrDraw *what, const double at
     for (uint32_t f = fields->innermost; f != FR_NONE; f = fields->fields[f].outer) {
         const FrField *force = &fields->fields[f];
         const FrPrepared *prepared = &fields->prepared[force->component];
-        if (prepared->kind == FR_COMPONENT_FORCE && force->strength != 0) {
+        if (is_force_on(fields, force) && force->strength != 0) {
             double weight = fr_force_at(force, prepared, at, way->heading, field);
             double metres = part * what->length / force->scale * what->weight;
             const FrForceParams *params = prepared->params;
-            metres *= params->order_factor != 1 ? pow(params->order_factor, what->order) : 1;
+            metres *= params->order_factor != 1 ? pow(params->order_factor, fields->order) : 1;
             draw(way, field, weight * force->strength * metres, false);
         }
     }
@@ -248,7 +259,7 @@ bool fr_field_deflect(const FrFields *fields, versors frame, vec3s from, double 
         const FrField *force = &fields->fields[f];
         const FrPrepared *prepared = &fields->prepared[force->component];
         const FrForceParams *params = prepared->params;
-        if (prepared->kind == FR_COMPONENT_FORCE && params->solid == FR_SOLID_SLIDE) {
+        if (is_force_on(fields, force) && params->solid == FR_SOLID_SLIDE) {
             is_turned |= lift(force, prepared, at, length, radius, heading);
         }
     }
@@ -297,7 +308,7 @@ double fr_field_free(const FrFields *fields, versors frame, vec3s from, double l
         const FrField *force = &fields->fields[f];
         const FrPrepared *prepared = &fields->prepared[force->component];
         const FrForceParams *params = prepared->params;
-        if (prepared->kind == FR_COMPONENT_FORCE && params->solid >= FR_SOLID_STOP) {
+        if (is_force_on(fields, force) && params->solid >= FR_SOLID_STOP) {
             bool may_come_out = (*out & bit) == 0;
             double own = free_of(force, prepared, at, heading, free, &may_come_out);
             *out |= may_come_out ? 0 : bit;

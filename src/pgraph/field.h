@@ -13,6 +13,7 @@ typedef struct FrField {
     double at[3];                   ///< where it stands, in the plant's coordinates …
     double axes[3][3];              ///< … columns are its axes
     double scale;                   ///< metres of a unit of its coordinates
+    uint32_t order;                 ///< of the stems that stand on it
     double strength, radius, pitch; ///< of a Force
     double sun[3];                  ///< of a World: towards it, in its own coordinates
 } FrField;
@@ -22,6 +23,7 @@ typedef struct FrFields {
     const FrField *fields;
     const FrPrepared *prepared; ///< by component
     uint32_t innermost;         ///< FR_NONE: plain gravity and light
+    uint32_t order;             ///< of the stem or leaf
     FrEvaluator *evaluator;     ///< takes note of formulas without value
     const FrLightField *light;  ///< for Worlds that sample it; NULL
 } FrFields;
@@ -32,7 +34,6 @@ typedef struct FrDraw {
     double length;     ///< m, of the stem
     double finest;     ///< m, > 0: the longest internode that its fields allow
     double weight;     ///< factor of forces
-    uint32_t order;    ///< of the stem
 } FrDraw;
 
 /// Gravity, 1 where it is plain, at a point in the plant's coordinates.

@@ -257,6 +257,7 @@ static void make_field(const FrExpansion *expansion, uint32_t row, FrPose pose,
         .component = fr_instance_stage(expansion, row)->component,
         .at = {(double)at.x, (double)at.y, (double)at.z},
         .scale = pose.scale,
+        .order = level->order[row],
     };
     const vec3s axes[3] = {fr_frame_left(rotation), fr_frame_up(rotation),
                            fr_frame_heading(rotation)};

@@ -277,6 +277,7 @@ FrFields fr_instance_fields(const FrExpansion *expansion, uint32_t row, FrEvalua
         .fields = (const FrField *)(const void *)expansion->fields->data,
         .prepared = expansion->prepared,
         .innermost = expansion->level.field[row],
+        .order = expansion->level.order[row],
         .evaluator = evaluator,
         .light = expansion->light,
     };

@@ -147,7 +147,9 @@
       "for radius-mode=pipe: 2 keeps the cross-section where stems divide, 3 is Murray's")         \
     X(TEXT, face_material, "", 0, 0, "", "",                                                       \
       "id of the material of a flat or broken end and of the inside of a hollow stem; empty: its " \
-      "own")
+      "own")                                                                                       \
+    X(NUMBER, aim, "0", -20, 20, "", "", "turns to the direction of aim-at; negative: away")       \
+    X(VECTOR, aim_at, "0, 0, 1", -1000, 1000, "", "", "a direction of the plant, for aim")
 
 /// How a Tree places its branches. From azimuth on, evaluated for each branch.
 #define FR_BRANCHING_PARAMS(X)                                                                     \

@@ -75,7 +75,9 @@
       "how much stronger it draws branches of each further order")                                 \
     X(CHOICE, solid, "no", 0, 0, "", "no yes stop prune",                                          \
       "stems pass, slide along its surface, end at it, or are cut off there")                      \
-    X(REAL, step, "0.05", 0.0001, 1000, "m", "", "stems get an internode at least every so far")
+    X(REAL, step, "0.05", 0.0001, 1000, "m", "", "stems get an internode at least every so far")   \
+    X(CHOICE, apply_to, "both", 0, 0, "", "both self children",                                    \
+      "all stems that follow; those of the order that stands on it; what branches from them")
 
 typedef struct FrScopeParams {
     FR_BASIC_PARAMS(FR_PARAM_FIELD)
@@ -132,5 +134,6 @@ enum {
     FR_FORCE_TO_MESH,
 };
 enum { FR_ACTION_FOLLOW, FR_ACTION_PULL, FR_ACTION_ALIGN, FR_ACTION_AVOID };
+enum { FR_APPLIES_TO_BOTH, FR_APPLIES_TO_SELF };
 enum { FR_SOLID_NOT, FR_SOLID_SLIDE, FR_SOLID_STOP, FR_SOLID_PRUNE };
 enum { FR_FALLOFF_NONE, FR_FALLOFF_LINEAR, FR_FALLOFF_INVERSE, FR_FALLOFF_GAUSS };

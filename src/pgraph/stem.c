@@ -5,6 +5,7 @@
 #include "pgraph/fork.h"
 #include "pgraph/life.h"
 
+#include <cglm/struct.h>
 #include <math.h>
 
 #define PI 3.14159265358979323846
@@ -101,7 +102,7 @@ static uint32_t adaptive_internodes(const FrStem *stem) {
     double pull = size_of(stem, FR_ALONG_PHOTOTROPISM, stem->tropism.up) +
                   size_of(stem, FR_ALONG_GRAVITROPISM, stem->tropism.down) +
                   size_of(stem, FR_ALONG_PLAGIOTROPISM, stem->tropism.flat);
-    pull += fabs(stem->align) + (stem->elasticity > 0 ? mean_sag(stem) : 0);
+    pull += fabs(stem->align) + fabs(stem->aim) + (stem->elasticity > 0 ? mean_sag(stem) : 0);
     turn += PI * (1 - exp(-pull)) + fabs(stem->bend) + fabs(stem->bend_aside) +
             fabs(stem->curvature_back);
     double count = turn / BEND_PER_INTERNODE;
@@ -257,6 +258,14 @@ static double unit_of_length(const FrStemParams *params, FrStemBase base) {
     }
 }
 
+// Where a stem aims at; a vector without direction turns nothing.
+static void measure_aim(FrStem *stem, double strength) {
+    vec3s at = ((const FrStemParams *)stem->prepared->params)->aim_at;
+    float size = glms_vec3_norm(at);
+    stem->aim = size > 0 ? strength : 0;
+    stem->aim_at = size > 0 ? glms_vec3_divs(at, size) : at;
+}
+
 static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase base) {
     const FrStemParams *params = stem->prepared->params;
 #define FR_GET(field) fr_value(evaluator, &params->field, FR_STEM_##field)
@@ -278,6 +287,7 @@ static void measure_numbers(FrStem *stem, FrEvaluator *evaluator, FrStemBase bas
     stem->gnarl_fine_frequency = FR_GET(gnarl_fine_frequency);
     stem->align = FR_GET(align);
     stem->align_to = base.heading;
+    measure_aim(stem, FR_GET(aim));
     stem->elasticity = FR_GET(stiffness) * 1e9;
     stem->load = FR_GET(load);
     stem->tropism.up = FR_GET(phototropism);

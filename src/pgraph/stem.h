@@ -76,6 +76,8 @@ typedef struct FrStem {
     double curvature_back;                   ///< radians
     double align;                            ///< strength …
     vec3s align_to;                          ///< … and direction, in the plant's coordinates
+    double aim;                              ///< the same to a direction given; 0 without one …
+    vec3s aim_at;                            ///< … of length 1
     double elasticity;                       ///< Pa; 0: rigid
     double load;                             ///< in weights of its own
     double force_weight;

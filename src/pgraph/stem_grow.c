@@ -59,7 +59,7 @@ static FrTropism tropism_between(const FrStem *stem, double from, double to) {
 static bool has_tropism(const FrStem *stem) {
     return fr_tropism_acts(stem->tropism) || fr_is_along(stem, FR_ALONG_PHOTOTROPISM) ||
            fr_is_along(stem, FR_ALONG_GRAVITROPISM) || fr_is_along(stem, FR_ALONG_PLAGIOTROPISM) ||
-           stem->align != 0 || stem->elasticity > 0;
+           stem->align != 0 || stem->aim != 0 || stem->elasticity > 0;
 }
 
 static bool has_gnarl(const FrStem *stem) {
@@ -159,7 +159,7 @@ static versors frame_before(const Growth *growth) {
     return growth->before != FR_NONE ? growth->plant->nodes.frame[growth->before] : identity;
 }
 
-// Adds to `turn` what what it stands on and its own weight turn the stem by.
+// Adds to `turn` what what it stands on, where it aims at and its own weight turn the stem by.
 static versors with_own(const Growth *growth, versors turn, double at, double step) {
     const FrStem *stem = growth->stem;
     versors parent = frame_before(growth);
@@ -167,6 +167,10 @@ static versors with_own(const Growth *growth, versors turn, double at, double st
         versors frame = fr_frame_step(parent, turn);
         versors aligned = fr_align_turn(stem->align * step, stem->align_to, frame);
         turn = turned_further(parent, turn, aligned);
+    }
+    if (stem->aim != 0) {
+        versors frame = fr_frame_step(parent, turn);
+        turn = turned_further(parent, turn, fr_align_turn(stem->aim * step, stem->aim_at, frame));
     }
     if (stem->elasticity > 0) {
         versors frame = fr_frame_step(parent, turn);
@@ -192,7 +196,6 @@ static versors with_fields(const Growth *growth, versors turn, double at, double
         .length = stem->length,
         .finest = stem->step,
         .weight = stem->force_weight,
-        .order = stem->order,
     };
     uint32_t before = growth->before;
     vec3s from = growth->is_base ? fr_plant_axis_origin(growth->plant, growth->axis)

@@ -137,6 +137,50 @@ static void behind_the_wall(void) {
     built_free(built);
 }
 
+// The digest of a tree in the wind; `force` are attributes of it, `trunk` and `twig` of its stems.
+static FrDigest in_wind(const char *force, const char *trunk, const char *twig) {
+    char *text = g_strdup_printf(
+        "force wind kind=direction;direction=1,0,0;strength=2;%s\n"
+        "tree trunk length=2;number=6;%s\nhorn top length=.4;%s\nhorn twig length=.6;%s\n"
+        "wind - trunk\ntrunk - top\ntrunk = twig",
+        force, trunk, trunk, twig);
+    Built built = build(text);
+    FrDigest digest = fr_plant_digest(built.plant);
+    built_free(built);
+    g_free(text);
+    return digest;
+}
+
+static void apply_to(void) {
+    // As if the other stems did not heed it.
+    FrDigest self = in_wind("apply-to=self", "", ""), both = in_wind("apply-to=both", "", "");
+    FrDigest children = in_wind("apply-to=children", "", "");
+    g_assert_true(both == in_wind("", "", ""));
+    g_assert_true(self == in_wind("", "", "force-weight=0"));
+    g_assert_true(children == in_wind("", "force-weight=0", ""));
+    g_assert_true(self != both && children != both && self != children);
+}
+
+static void prunes_children(void) {
+    // A hedge that only branches are cut to: the trunk stands out of it, no branch does.
+    Built built = build("force hedge kind=box;size=.6,.6,1;inverted=yes;solid=prune;strength=0;"
+                        "apply-to=children\n"
+                        "tree trunk length=2;number=12;end=.45\nhorn twig length=1;radius=.004\n"
+                        "hedge - trunk\ntrunk = twig");
+    const FrPlant *plant = built.plant;
+    float top = 0, side = 0;
+    for (uint32_t k = 0; k < plant->nodes.count; k++) {
+        vec3s at = plant->nodes.position[k];
+        bool is_trunk = plant->axes.order[plant->nodes.axis[k]] == 0;
+        top = is_trunk ? fmaxf(top, at.z) : top;
+        side = is_trunk ? side : fmaxf(side, fmaxf(fabsf(at.x), fabsf(at.y)));
+    }
+    g_assert_cmpfloat_with_epsilon(top, 2, 1e-4F);
+    g_assert_cmpfloat(side, >, 0.25F);
+    g_assert_cmpfloat(side, <, 0.302F);
+    built_free(built);
+}
+
 static void solid_ball(void) {
     Built built = build("force ball kind=point;action=pull;strength=20;radius=.3;solid=yes\n"
                         "horn stem length=3;radius=.01;translate-z=-1\nball - stem");
@@ -243,6 +287,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/pgraph/field/C34 a world's sun draws stems to it", sun);
     g_test_add_func("/pgraph/field/C35 a stem finds a stick and keeps to it", around_a_stick);
     g_test_add_func("/pgraph/field/C36 nothing grows behind a wall", behind_the_wall);
+    g_test_add_func("/pgraph/field/apply-to says which stems a force turns", apply_to);
+    g_test_add_func("/pgraph/field/apply-to says which stems a force cuts", prunes_children);
     g_test_add_func("/pgraph/field/nothing grows into a ball", solid_ball);
     g_test_add_func("/pgraph/field/a stem follows a curve", curve);
     g_test_add_func("/pgraph/field/leaves turn in fields", leaves_see_the_field);

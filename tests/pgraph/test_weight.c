@@ -79,6 +79,35 @@ static void align(void) {
     }
 }
 
+static void aim(void) {
+    // The same to a direction that is given, of any length, whatever it grows on; a negative one
+    // turns away from it, and one without direction turns nothing.
+    static const struct {
+        const char *strength, *at;
+        vec3s towards;
+        double left;
+    } cases[] = {
+        {"1.2", "0, 30, 0", {{0, 1, 0}}, 90 * 0.30119421191220214},
+        {"0.7", "-2, 0, 0", {{-1, 0, 0}}, 120 * 0.4965853037914095},
+        {"-0.2", "0, 0, -1", {{0, 0, -1}}, 150 * 1.2214027581601699},
+        {"5", "0, 0, 0", {{0, 0, 1}}, 30},
+    };
+    for (size_t k = 0; k < 2 * G_N_ELEMENTS(cases); k++) {
+        char *text = g_strdup_printf("horn H rotate-y=30;length=1;segments=%d;aim=%s;aim-at=%s\n"
+                                     "leaf L\nH - L",
+                                     k % 2 == 0 ? 4 : 64, cases[k / 2].strength, cases[k / 2].at);
+        Built built = build(text);
+        vec3s position;
+        versors rotation;
+        fr_plant_organ_pose(built.plant, 0, &position, &rotation);
+        double cosine = (double)glms_vec3_dot(fr_frame_heading(rotation), cases[k / 2].towards);
+        double left = fmin(cases[k / 2].left, 180);
+        g_assert_cmpfloat_with_epsilon(acos(fmax(-1, fmin(cosine, 1))) * DEGREES, left, 0.06);
+        built_free(built);
+        g_free(text);
+    }
+}
+
 static void back_curvature(void) {
     // An S: 60 degrees up to its middle, then back by as much.
     Built built = build("horn H curvature=120;curvature-back=-120;segments=40\nleaf L\nH - L");
@@ -186,6 +215,7 @@ int main(int argc, char **argv) {
     TEST("a beam sags as the theory of beams says", beam);
     TEST("longer, thinner and laden stems sag more", sags_with_load);
     TEST("an aligned stem keeps a part of its angle to the parent", align);
+    TEST("a stem that aims keeps a part of its angle to a direction", aim);
     TEST("curvature and back curvature make an S", back_curvature);
     TEST("a fine gnarl trembles about the stem's way", fine_gnarl);
     TEST("a length of what remains shrinks to the tip", remaining_length);
