@@ -428,10 +428,10 @@ static void set_tip(GtkWidget *button, const char *verb, const char *step) {
 }
 
 void studio_window_update_actions(StudioWindow *window) {
-    static const char *const always[] = {
-        "save-as", "save-to", "export",    "export-to", "screenshot", "add",  "prune",
-        "hide",    "roll",    "set",       "select",    "frame",      "zoom", "mode",
-        "grid",    "shadow",  "occlusion", "side",      "sketch"};
+    static const char *const always[] = {"save-as", "save-to", "export", "export-to", "screenshot",
+                                         "prune",   "hide",    "set",    "select",    "frame",
+                                         "zoom",    "mode",    "grid",   "shadow",    "occlusion",
+                                         "side",    "sketch"};
     StudioDocument *document = window->document;
     bool is_there = document != NULL;
     for (size_t i = 0; i < G_N_ELEMENTS(always); i++) {
@@ -446,9 +446,12 @@ void studio_window_update_actions(StudioWindow *window) {
     enable(window, "save",
            is_there &&
                (!studio_document_is_saved(document) || studio_document_path(document) == NULL));
-    bool has_component = is_there && !studio_document_is_broken(document) &&
-                         studio_document_contents(document) != NULL &&
-                         selected_component(window) != NULL;
+    bool is_whole = is_there && !studio_document_is_broken(document) &&
+                    studio_document_contents(document) != NULL;
+    uint32_t plant = is_whole ? studio_window_plant(window) : FR_NONE;
+    enable(window, "roll", plant != FR_NONE);
+    enable(window, "add", plant != FR_NONE && studio_graph_of(document, plant) != FR_NONE);
+    bool has_component = is_whole && selected_component(window) != NULL;
     enable(window, "duplicate", has_component);
     enable(window, "toggle-enabled", has_component);
     enable(window, "remove", is_there && studio_window_selected(window) != FR_NONE);

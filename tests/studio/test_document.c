@@ -43,6 +43,23 @@ static void test_undo_all(void) {
     studio_document_free(document);
 }
 
+static void test_add_along_stem(void) {
+    StudioDocument *document = open_example("examples/sunflower.frond");
+    uint32_t plant = first_plant(document);
+    g_assert_true(studio_add_component(document, plant, FR_COMPONENT_LEAF, "stem", NULL));
+    g_assert_false(studio_document_is_broken(document));
+    g_assert_nonnull(
+        strstr(text_of(document), "<link from=\"stem\" to=\"leaf\" kind=\"branch\"/>"));
+    studio_document_free(document);
+}
+
+static void test_add_to_no_plant(void) {
+    static const char none[] = "<frond version=\"1\"/>";
+    StudioDocument *document = studio_document_new(none, strlen(none), "none", NULL);
+    g_assert_false(studio_add_component(document, FR_NONE, FR_COMPONENT_LEAF, NULL, NULL));
+    studio_document_free(document);
+}
+
 static void test_names(void) {
     StudioDocument *document = small_document();
     g_assert_null(studio_document_undo_name(document));
@@ -333,6 +350,8 @@ static void test_lsystem(void) {
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/studio/document/undoing all gives the first bytes", test_undo_all);
+    g_test_add_func("/studio/document/a leaf is added along a stem", test_add_along_stem);
+    g_test_add_func("/studio/document/nothing is added to no plant", test_add_to_no_plant);
     g_test_add_func("/studio/document/steps have names", test_names);
     g_test_add_func("/studio/document/a drag is one step", test_drag);
     g_test_add_func("/studio/document/a drag back to its start is none", test_drag_back);

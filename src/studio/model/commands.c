@@ -75,7 +75,7 @@ bool studio_reset_all(StudioDocument *document, uint32_t element) {
 // ---- components --------------------------------------------------------------------------------
 
 uint32_t studio_graph_of(const StudioDocument *document, uint32_t plant) {
-    return fr_contents_child(contents_of(document), plant, "pgraph");
+    return plant == FR_NONE ? FR_NONE : fr_contents_child(contents_of(document), plant, "pgraph");
 }
 
 char *studio_free_id(const StudioDocument *document, uint32_t plant, const char *stem) {
@@ -117,7 +117,11 @@ const char *studio_link_words(FrLinkKind kind, FrComponentKind from) {
 // The `<link>` behind the last element that may stand before links; all of a graph.
 static char *link_xml(const char *from, const char *to, FrLinkKind kind) {
     static const char *const kinds[] = {"", " kind=\"branch\"", " kind=\"leaf\"", ""};
-    return g_markup_printf_escaped("<link from=\"%s\" to=\"%s\"%s/>", from, to, kinds[kind]);
+    char *ends = g_markup_printf_escaped("<link from=\"%s\" to=\"%s\"", from, to);
+    char *xml =
+        g_strconcat(ends, kinds[kind], "/>", NULL); // a kind is markup, so it is not escaped
+    g_free(ends);
+    return xml;
 }
 
 static uint32_t last_component(const FrContents *contents, uint32_t graph) {

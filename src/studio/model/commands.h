@@ -15,7 +15,7 @@ bool studio_reset_all(StudioDocument *document, uint32_t element);
 
 // ---- components of a <pgraph> ------------------------------------------------------------------
 
-/// The `<pgraph>` of a plant, FR_NONE.
+/// The `<pgraph>` of a plant; FR_NONE: it has none, or `plant` is FR_NONE.
 uint32_t studio_graph_of(const StudioDocument *document, uint32_t plant);
 /// An id that nothing within the plant has: `stem`, `stem2`, … Free with g_free().
 char *studio_free_id(const StudioDocument *document, uint32_t plant, const char *stem);
