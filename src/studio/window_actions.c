@@ -46,10 +46,9 @@ static void do_open(GSimpleAction *action, GVariant *parameter, gpointer data) {
 
 static bool save_to(StudioWindow *window, const char *path) {
     FrDiags *diags = fr_diags_new();
-    FrStatus status = studio_document_save(window->document, path, diags);
+    FrStatus status = studio_recovery_save(window->recovery, path, diags);
     if (status == FR_OK) {
         studio_settings_add_recent(window->settings, studio_document_path(window->document));
-        studio_recovery_update(window->recovery);
         studio_window_say(window, "Saved %s", studio_document_name(window->document));
     } else {
         studio_window_say(window, "%s", fr_diags_get(diags, 0)->text);

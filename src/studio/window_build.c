@@ -16,10 +16,10 @@ static void show_amount(StudioWindow *window, const StudioTimes *times, bool is_
     StudioAmount amount = studio_viewport_amount(window->viewport);
     double milliseconds =
         1000 * (times->read + times->build + times->view + amount.uploaded_seconds);
-    char *leaves = studio_count_text(amount.leaves);
-    char *triangles = studio_count_text(amount.triangles);
+    char *leaves = studio_count_words(amount.leaves, "leaf", "leaves");
+    char *triangles = studio_count_words(amount.triangles, "triangle", "triangles");
     char *time = is_edit ? g_strdup_printf("   %.0f ms", milliseconds) : g_strdup("");
-    char *text = g_strdup_printf("%s leaves   %s triangles%s", leaves, triangles, time);
+    char *text = g_strdup_printf("%s   %s%s", leaves, triangles, time);
     gtk_label_set_text(GTK_LABEL(window->amount), text);
     g_free(text);
     g_free(time);

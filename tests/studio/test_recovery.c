@@ -4,6 +4,8 @@
 
 #include <glib/gstdio.h>
 #include <signal.h>
+#include <stdlib.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -83,6 +85,12 @@ static void test_saved_leaves_nothing(Fixture *fixture, gconstpointer data) {
     studio_document_free(document);
 }
 
+// How often a test kills: FROND_KILLS, else few.
+static int count_kills(void) {
+    const char *given = g_getenv("FROND_KILLS");
+    return given == NULL ? 10 : atoi(given);
+}
+
 // Edits a document in a process of its own until it is killed.
 static void edit_for_ever(const Fixture *fixture) {
     StudioDocument *document;
@@ -100,7 +108,7 @@ static void edit_for_ever(const Fixture *fixture) {
 
 static void test_killed(Fixture *fixture, gconstpointer data) {
     (void)data;
-    for (int i = 0; i < 20; i++) {
+    for (int i = 0; i < count_kills(); i++) {
         pid_t child = fork();
         if (child == 0) {
             edit_for_ever(fixture);
@@ -133,6 +141,134 @@ static void test_killed(Fixture *fixture, gconstpointer data) {
     }
 }
 
+// ---- killed while saving -----------------------------------------------------------------------
+
+enum { SAVE_EVERY = 3 }; // the states 3, 6, 9 … are saved, the others have copies only
+
+// What the child has surely done when it is killed.
+typedef struct Done {
+    volatile int copied, saved; // states
+} Done;
+
+// The text of a state, of 0 to 20 kB. Free with g_free().
+static char *state_text(int state) {
+    int length = (int)((unsigned)state * 7919 % 20000);
+    char *filling = g_strnfill((gsize)length, 'x');
+    char *whole = g_strdup_printf("<frond version='1'><!-- %d %s --></frond>\n", state, filling);
+    g_free(filling);
+    return whole;
+}
+
+// The state whose text that is to the byte.
+static int state_of(const char *found) {
+    int state = 0;
+    if (strcmp(found, text) != 0) {
+        g_assert_cmpint(sscanf(found, "<frond version='1'><!-- %d ", &state), ==, 1);
+        char *whole = state_text(state);
+        g_assert_cmpstr(found, ==, whole);
+        g_free(whole);
+    }
+    return state;
+}
+
+// Edits and saves in a process of its own until it is killed.
+static void save_for_ever(const Fixture *fixture, int state, Done *done) {
+    StudioDocument *document;
+    if (studio_document_open(fixture->file, NULL, &document) != FR_OK) {
+        _exit(1);
+    }
+    StudioRecovery *recovery = studio_recovery_new(fixture->folder, document);
+    for (;; state++) {
+        char *next = state_text(state);
+        studio_document_replace(document, next, strlen(next), "Type", NULL);
+        g_free(next);
+        if (state % SAVE_EVERY != 0) {
+            if (studio_recovery_update(recovery)) {
+                done->copied = state;
+            }
+        } else if (studio_recovery_save(recovery, NULL, NULL) == FR_OK) {
+            done->saved = state;
+        }
+    }
+}
+
+static int saved_state(const Fixture *fixture) {
+    StudioDocument *document;
+    g_assert_cmpint(studio_document_open(fixture->file, NULL, &document), ==, FR_OK);
+    g_assert_false(studio_document_is_broken(document));
+    int state = state_of(text_of(document));
+    g_assert_cmpint(state % SAVE_EVERY, ==, 0);
+    studio_document_free(document);
+    return state;
+}
+
+// The newest state that is offered to be recovered, which it takes away; 0: none is.
+static int offered_state(const Fixture *fixture) {
+    GPtrArray *list = studio_recovery_list(fixture->folder);
+    g_assert_cmpuint(list->len, <=, 1);
+    int state = 0;
+    if (list->len == 1) {
+        const StudioLeft *left = g_ptr_array_index(list, 0);
+        StudioDocument *document = studio_recovery_restore(left, NULL);
+        g_assert_nonnull(document);
+        state = state_of(text_of(document));
+        studio_document_free(document);
+        studio_recovery_discard(left);
+    }
+    g_ptr_array_unref(list);
+    return state;
+}
+
+// What earlier children have left half-written stays in the folder and must not matter.
+static void test_killed_saving(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    Done *done =
+        mmap(NULL, sizeof *done, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    g_assert_true(done != MAP_FAILED);
+    int first = 0, most_saved = 0, offers = 0;
+    for (int i = 0; i < count_kills(); i++) {
+        *done = (Done){.copied = first, .saved = first};
+        pid_t child = fork();
+        if (child == 0) {
+            save_for_ever(fixture, first + 1, done);
+        }
+        int wanted = first + g_test_rand_int_range(0, 2 * SAVE_EVERY + 1);
+        while (MAX(done->copied, done->saved) < wanted) {
+            g_usleep(100);
+        }
+        g_usleep((gulong)g_test_rand_int_range(0, 9000));
+        kill(child, SIGKILL);
+        waitpid(child, NULL, 0);
+        int saved = saved_state(fixture), offered = offered_state(fixture);
+        g_assert_cmpint(saved, >=, done->saved);
+        g_assert_true(offered == 0 || offered > saved);
+        g_assert_true(done->copied <= saved || offered >= done->copied);
+        most_saved = MAX(most_saved, saved - first);
+        offers += offered != 0;
+        first = saved;
+    }
+    g_assert_cmpint(munmap(done, sizeof *done), ==, 0);
+    g_test_message("%d kills: %d recoveries offered, at most %d states in one life", count_kills(),
+                   offers, most_saved);
+}
+
+static void test_saved_just_before(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    char *copy = g_build_filename(fixture->folder, "1-0.frond", NULL);
+    char *note = g_build_filename(fixture->folder, "1-0.ini", NULL);
+    char *says = g_strdup_printf("[Recovery]\nprocess=1\nstart=-5\nname=x\nfolder=/\npath=%s\n",
+                                 fixture->file);
+    g_assert_true(g_file_set_contents(note, says, -1, NULL));
+    g_assert_true(g_file_set_contents(copy, other, -1, NULL));
+    g_assert_cmpuint(count_left(fixture), ==, 1);
+    g_assert_true(g_file_set_contents(copy, text, -1, NULL));
+    g_assert_cmpuint(count_left(fixture), ==, 0);
+    g_assert_cmpuint(count_files(fixture), ==, 1); // the document alone
+    g_free(says);
+    g_free(note);
+    g_free(copy);
+}
+
 static void test_without_file(Fixture *fixture, gconstpointer data) {
     (void)data;
     char *gone = g_build_filename(fixture->folder, "1-0.frond", NULL);
@@ -158,6 +294,10 @@ int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     ADD("/studio/recovery/what is saved or closed leaves no copy", test_saved_leaves_nothing);
     ADD("/studio/recovery/killed while editing the last copy is whole", test_killed);
+    ADD("/studio/recovery/killed while saving the file is whole and only newer states are offered",
+        test_killed_saving);
+    ADD("/studio/recovery/a copy that the file holds just so is not offered",
+        test_saved_just_before);
     ADD("/studio/recovery/a document without a file is recovered by name", test_without_file);
     return g_test_run();
 }

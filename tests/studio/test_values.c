@@ -30,6 +30,12 @@ static void test_numbers(void) {
     g_assert_false(studio_value_is_number("3..4", &value));
     g_assert_false(studio_value_is_number("= t", &value));
     g_assert_false(studio_value_is_number("inf", &value));
+    char *one = studio_count_words(1, "leaf", "leaves");
+    char *none = studio_count_words(0, "leaf", "leaves");
+    g_assert_cmpstr(one, ==, "1 leaf");
+    g_assert_cmpstr(none, ==, "0 leaves");
+    g_free(none);
+    g_free(one);
     char *count = studio_count_text(2640981);
     g_assert_cmpstr(count, ==, "2\u202f640\u202f981");
     g_free(count);

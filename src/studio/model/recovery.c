@@ -10,7 +10,7 @@ static const char group[] = "Recovery";
 
 // Two files: X.frond is the text; X.ini, written after it, says what it belongs to.
 struct StudioRecovery {
-    const StudioDocument *document;
+    StudioDocument *document;
     char *text_file, *note_file;
     uint64_t revision; // of the copy; 0: there is none
 };
@@ -37,7 +37,7 @@ static gint64 start_of(gint64 process) {
     return start;
 }
 
-StudioRecovery *studio_recovery_new(const char *folder, const StudioDocument *document) {
+StudioRecovery *studio_recovery_new(const char *folder, StudioDocument *document) {
     g_mkdir_with_parents(folder, 0700);
     StudioRecovery *recovery = g_new0(StudioRecovery, 1);
     recovery->document = document;
@@ -109,6 +109,15 @@ bool studio_recovery_update(StudioRecovery *recovery) {
     return is_written;
 }
 
+FrStatus studio_recovery_save(StudioRecovery *recovery, const char *path, FrDiags *diags) {
+    studio_recovery_update(recovery); // if that fails, saving is needed the more
+    FrStatus status = studio_document_save(recovery->document, path, diags);
+    if (status == FR_OK) {
+        studio_recovery_update(recovery);
+    }
+    return status;
+}
+
 // ---- what was left -----------------------------------------------------------------------------
 
 static void left_free(gpointer data) {
@@ -123,6 +132,18 @@ static void left_free(gpointer data) {
 static bool is_alive(gint64 process, gint64 start) {
     return process > 0 && (kill((pid_t)process, 0) == 0 || errno == EPERM) &&
            start_of(process) == start;
+}
+
+// Whether the file holds what the copy does: the program ended after saving.
+static bool is_saved(const StudioLeft *left) {
+    char *file = NULL, *copy = NULL;
+    gsize file_size, copy_size;
+    bool is_same = left->path != NULL && g_file_get_contents(left->path, &file, &file_size, NULL) &&
+                   g_file_get_contents(left->text_file, &copy, &copy_size, NULL) &&
+                   file_size == copy_size && memcmp(file, copy, file_size) == 0;
+    g_free(file);
+    g_free(copy);
+    return is_same;
 }
 
 // What a note tells of; NULL if its program still runs or it makes no sense.
@@ -163,7 +184,10 @@ GPtrArray *studio_recovery_list(const char *folder) {
         if (g_str_has_suffix(name, ".ini")) {
             char *file = g_build_filename(folder, name, NULL);
             StudioLeft *left = read_note(file);
-            if (left != NULL) {
+            if (left != NULL && is_saved(left)) {
+                studio_recovery_discard(left);
+                left_free(left);
+            } else if (left != NULL) {
                 g_ptr_array_add(list, left);
             }
             g_free(file);

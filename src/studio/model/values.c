@@ -52,6 +52,13 @@ char *studio_count_text(uint64_t count) {
     return g_string_free(text, FALSE);
 }
 
+char *studio_count_words(uint64_t count, const char *one, const char *many) {
+    char *number = studio_count_text(count);
+    char *text = g_strdup_printf("%s %s", number, count == 1 ? one : many);
+    g_free(number);
+    return text;
+}
+
 static double power_above(double value) {
     double power = pow(10, floor(log10(value)));
     return value / power <= 1   ? power
