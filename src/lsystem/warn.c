@@ -1,5 +1,5 @@
 // What a compiled file says that is allowed and yet unlikely to be meant: symbols that have no
-// effect, modules with a number of parameters that no production knows.
+// effect, modules with a number of parameters that no production knows, branches without an end.
 #include "lsystem/warn.h"
 
 #include <math.h>
@@ -104,6 +104,58 @@ static void note_predecessors(Warner *warner) {
     }
 }
 
+/// How many more branches a template opens than it closes.
+static int64_t opens_of(const FrLsystem *system, uint32_t first, uint32_t count) {
+    int64_t opens = 0;
+    for (uint32_t at = 0; at < count;) {
+        uint32_t head = g_array_index(system->words, uint32_t, first + at);
+        opens += (fr_lhead_symbol(head) == '[') - (fr_lhead_symbol(head) == ']');
+        at += 1 + fr_lhead_count(head);
+    }
+    return opens;
+}
+
+/// The same for a production: what its predecessor opens is no surplus of its successor.
+static int64_t opens_more(const FrLsystem *system, const FrLproduction *production) {
+    int64_t opens = opens_of(system, production->words, production->word_count);
+    for (uint32_t i = 0; i < production->strict.count; i++) {
+        uint32_t key =
+            g_array_index(system->patterns, FrLpattern, production->strict.first + i).key;
+        opens -= (fr_lhead_symbol(key) == '[') - (fr_lhead_symbol(key) == ']');
+    }
+    return opens;
+}
+
+static void tell_brackets(Warner *warner, int64_t opens, FrSpan span) {
+    if (opens != 0) {
+        fr_diags_add(warner->diags, FR_WARNING, "bracket", span,
+                     opens > 0 ? "a branch begins here with '[' and no ']' ends it"
+                               : "here is a ']' and no '[' before it that it could end");
+    }
+}
+
+/// One production may open what another closes; so only where the file lacks brackets of one kind.
+static void check_brackets(Warner *warner) {
+    const FrLsystem *system = warner->system;
+    bool opens = false, closes = false;
+    for (int pass = 0; pass < 2 && !(opens && closes); pass++) {
+        for (guint u = 0; u < system->units->len; u++) {
+            const FrLunit *unit = g_ptr_array_index(system->units, u);
+            int64_t more = opens_of(system, unit->axiom, unit->axiom_words);
+            opens |= more > 0;
+            closes |= more < 0;
+            tell_brackets(warner, pass == 0 ? 0 : more, unit->axiom_span);
+        }
+        for (guint i = 0; i < system->productions->len; i++) {
+            const FrLproduction *production = &g_array_index(system->productions, FrLproduction, i);
+            int64_t more = opens_more(system, production);
+            opens |= more > 0;
+            closes |= more < 0;
+            tell_brackets(warner, pass == 0 ? 0 : more, production->span);
+        }
+    }
+}
+
 void fr_lwarn(const FrLsystem *system, FrDiags *diags) {
     Warner warner = {.system = system, .diags = diags, .told = g_hash_table_new(NULL, NULL)};
     note_predecessors(&warner);
@@ -115,5 +167,6 @@ void fr_lwarn(const FrLsystem *system, FrDiags *diags) {
         const FrLproduction *production = &g_array_index(system->productions, FrLproduction, i);
         check_template(&warner, production->words, production->word_count, production->span);
     }
+    check_brackets(&warner);
     g_hash_table_unref(warner.told);
 }
