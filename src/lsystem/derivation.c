@@ -107,6 +107,9 @@ static const char *fault_text(const char *code) {
     if (strcmp(code, "no-number") == 0) {
         return "this parameter is infinite or no number";
     }
+    if (strcmp(code, "negative-weight") == 0) {
+        return "this weight is negative or no number, so that the chances of all are wrong";
+    }
     return "a module could be decomposed or replaced further, but 'maximum depth' is reached";
 }
 

@@ -231,6 +231,9 @@ const FrLproduction *fr_lmatch_random(const FrLmatcher *matcher, const FrLsectio
             weights[count] = production->weight == FR_NONE
                                  ? 1
                                  : (float)fr_lmachine_run(matcher->machine, production->weight);
+            if (!(weights[count] >= 0)) {
+                fr_lmachine_fault(matcher->machine, "negative-weight", production->weight);
+            }
             total += weights[count];
             words[count] = matched;
             found[count++] = section->sorted[i];

@@ -23,6 +23,8 @@ static const Kind kinds[] = {
     {"w : A(1)\np1 : A(x,y) -> A(x,y)\n", 0, FR_OK, "parameter-count", 1, 5, "1 parameter,"},
     {HEAD "A(x) --> F[+A(x)\nendlsystem\n", 0, FR_OK, "bracket", 4, 1, "no ']' ends it"},
     {HEAD "A(x) --> F]+A(x)\nendlsystem\n", 0, FR_OK, "bracket", 4, 1, "no '['"},
+    {"Lsystem: 1\nseed: 1\naxiom: A\nA --> B : -5\nA --> C : 1\nendlsystem\n", 1, FR_OK,
+     "negative-weight", 4, 12, "(step 1, module 1)"},
     {"w : F[A\np1 : A -> F\n", 0, FR_OK, "bracket", 1, 5, "no ']' ends it"},
     {HEAD "A(x) --> FA(x-1)F(1/(x-1))\nendlsystem\n", 2, FR_OK, "division-by-zero", 4, 20,
      "(step 1, module 1)"},
