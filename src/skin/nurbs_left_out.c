@@ -43,11 +43,23 @@ static bool is_told(const FrDiags *diags, const char *text) {
     return is_found;
 }
 
+/// Where what made an axis is written.
+static FrSpan place_of(const FrPlant *plant, uint32_t axis) {
+    uint32_t component = plant->axes.component[axis];
+    return component < plant->components->len
+               ? g_array_index(plant->components, FrComponent, component).span
+               : (FrSpan){0};
+}
+
 void fr_nurbs_tell_left_out(const FrNurbsJob *job) {
     FrDiags *diags = job->context->diags;
+    FrSpan place = {0}; // of the first
     unsigned left = 0;
     for (uint32_t i = 0; i < job->plan.tubes->len; i++) {
-        left |= left_out_of(job, &g_array_index(job->plan.tubes, FrTube, i));
+        const FrTube *tube = &g_array_index(job->plan.tubes, FrTube, i);
+        unsigned more = left_out_of(job, tube);
+        place = left == 0 && more != 0 ? place_of(job->plan.plant, tube->axis) : place;
+        left |= more;
     }
     if (left == 0 || diags == NULL) {
         return;
@@ -61,7 +73,7 @@ void fr_nurbs_tell_left_out(const FrNurbsJob *job) {
     char *told =
         g_strdup_printf("'%s': its surfaces are without %s", job->plan.plant->name, text->str);
     if (!is_told(diags, told)) {
-        fr_diags_add(diags, FR_WARNING, "left-out", (FrSpan){0}, "%s", told);
+        fr_diags_add(diags, FR_WARNING, "left-out", place, "%s", told);
     }
     g_string_free(text, TRUE);
     g_free(told);

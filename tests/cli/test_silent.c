@@ -75,9 +75,10 @@ static const Case cases[] = {
     {"a model through whose lattice everything falls is refused with its place",
      ROOT("<plant id=\"p\"><nurbs voxel=\"50\"/><pgraph><horn id=\"h\"/></pgraph></plant>"),
      "build a.frond -o a.stl", 1, "", "a.frond:2:16: error: 'p': *[voxel-too-coarse]*"},
-    {"finishes that surfaces leave out are told once by name",
+    {"finishes that surfaces leave out are told once by name and place",
      GRAPH("<tree id=\"t\" relief=\"0.2\" buttresses=\"4\"/>"), "build a.frond -o a.stp -o a.igs",
-     0, "*a.stp: *", "warning: 'p': its surfaces are without buttresses, relief [left-out]\n"},
+     0, "*a.stp: *",
+     "a.frond:2:*warning: 'p': its surfaces are without buttresses, relief [left-out]\n    2 | *"},
     {"a slip of a digit is refused before there is a mesh",
      GRAPH("<tree id=\"t\" number=\"1000\"/><tree id=\"b\" number=\"1000\"/><leaf id=\"leaf\"/>"
            "<link from=\"t\" to=\"b\" kind=\"branch\"/><link from=\"b\" to=\"leaf\" "
