@@ -258,8 +258,10 @@ FrMeshFile *fr_mesh_file_load(const char *folder, const char *name, FrSpan span,
     char *path = g_build_filename(folder != NULL ? folder : ".", name, NULL);
     struct stat stat_of;
     FrMeshFile *file = NULL;
-    if (stat(path, &stat_of) != 0 || !S_ISREG(stat_of.st_mode)) {
-        fr_diags_add(context->diags, FR_ERROR, "missing-file", span, "there is no file '%s'", path);
+    bool is_there = stat(path, &stat_of) == 0;
+    if (!is_there || !S_ISREG(stat_of.st_mode)) {
+        fr_diags_add(context->diags, FR_ERROR, "missing-file", span,
+                     is_there ? "'%s' is not a file" : "there is no file '%s'", path);
         *status = FR_ERR_DOCUMENT;
     } else {
         *status = fr_limit_check((uint64_t)stat_of.st_size, context->limits.document_bytes,

@@ -150,7 +150,8 @@ static void read_surface(FrObjReader *obj, const char *at) {
         gint64 index = g_ascii_strtoll(at, &end, 10), count = obj->vertices->len;
         index = index < 0 ? count + index : index - 1;
         if (end == at || index < 0 || index >= count) {
-            fr_surface_fail(obj->reader, obj->line, "there is no vertex '%.20s'", at);
+            int length = (int)MIN(skip_word(at) - at, 20);
+            fr_surface_fail(obj->reader, obj->line, "there is no vertex '%.*s'", length, at);
             return;
         }
         uint32_t control = (uint32_t)index;
@@ -162,14 +163,26 @@ static void read_surface(FrObjReader *obj, const char *at) {
 }
 
 static void read_parameters(FrObjReader *obj, const char *at) {
-    at = skip_blanks(at);
-    if (*at == '\0') {
+    if (!obj->is_surface) {
+        return; // of a curve
+    }
+    const char *name = skip_blanks(at);
+    size_t size = strlen(name);
+    if (!is_word(name, size, "u") && !is_word(name, size, "v")) {
+        fr_surface_fail(obj->reader, obj->line, "'parm' is followed by u or v and their knots");
         return;
     }
-    GArray *knots = obj->knots[*at == 'v'];
-    at++;
+    GArray *knots = obj->knots[*name == 'v'];
     g_array_set_size(knots, 0);
-    for (double knot = next_number(&at); !isnan(knot); knot = next_number(&at)) {
+    for (at = skip_blanks(name + 1); *at != '\0'; at = skip_blanks(at)) {
+        const char *word = at;
+        double knot = next_number(&at);
+        if (isnan(knot) || skip_word(at) != at) {
+            int length = (int)MIN(skip_word(word) - word, 20);
+            fr_surface_fail(obj->reader, obj->line, "here should be a knot, not '%.*s'", length,
+                            word);
+            return;
+        }
         g_array_append_val(knots, knot);
     }
 }

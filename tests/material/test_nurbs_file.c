@@ -109,6 +109,46 @@ static void obj_faces(void) {
     fr_mesh_file_unref(file);
 }
 
+/// Its word and line are told, and nothing is taken for what it is not.
+static void obj_words(void) {
+#define SURF QUARTER "surf 0 1 0 1 1 2 3 4 5 6\n"
+    static const char *const texts[][2] = {
+        {QUARTER "surf 0 1 0 1 7 2 3 4 5 6\n" ENDED, "*line 9: there is no vertex '7'"},
+        {SURF "parm w 0 0 0 1 1 1\nparm v 0 0 1 1\nend\n", "*line 10: 'parm' is followed by u*"},
+        {SURF "parm u 0 0 0 1 1 1 x\nparm v 0 0 1 1\nend\n",
+         "*line 10: here should be a knot, not 'x'"},
+        {SURF "parm u 0 0 0 1 1 1\nparm v 0 0 1 1a\nend\n",
+         "*line 11: here should be a knot, not '1a'"},
+    };
+    for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
+        load_told("q.obj", texts[i][0], -1, "bad-surfaces", texts[i][1]);
+    }
+    // Those of curves are passed over.
+    fr_mesh_file_unref(
+        load("q.obj",
+             QUARTER "curv 0 1 1 2 3\nparm u 0 0 0 1 1 1\nend\nsurf 0 1 0 1 1 2 3 4 5 6\n" ENDED,
+             -1, NULL));
+}
+
+/// Of a folder it is not said that it is not there.
+static void folder_is_no_file(void) {
+    char *folder = g_dir_make_tmp("frond-XXXXXX", NULL),
+         *inner = g_strdup_printf("%s/a.igs", folder);
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    FrStatus status = FR_OK;
+    g_assert_cmpint(g_mkdir(inner, 0700), ==, 0);
+    g_assert_null(fr_mesh_file_load(folder, "a.igs", (FrSpan){0}, &context, &status));
+    g_assert_cmpint(status, ==, FR_ERR_DOCUMENT);
+    g_assert_cmpuint(fr_diags_count(context.diags), ==, 1);
+    g_assert_true(g_str_has_suffix(fr_diags_get(context.diags, 0)->text, "/a.igs' is not a file"));
+    fr_diags_free(context.diags);
+    g_rmdir(inner);
+    g_rmdir(folder);
+    g_free(inner);
+    g_free(folder);
+}
+
 static void obj_cut_off(void) {
     load_told("q.obj", QUARTER "surf 0 1 0 1 1 2 3 4 5 6\nparm u 0 0 0 1 1 1\nparm v 0 0 1 1\n", -1,
               "bad-surfaces", "'q.obj', line 9: *no 'end'*");
@@ -307,6 +347,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/material/nurbs_file/faces beside surfaces are kept", obj_faces);
     g_test_add_func("/material/nurbs_file/a file that is cut off is told with its line",
                     obj_cut_off);
+    g_test_add_func("/material/nurbs_file/words of OBJ that mean nothing are told", obj_words);
+    g_test_add_func("/material/nurbs_file/a folder is told to be no file", folder_is_no_file);
     g_test_add_func("/material/nurbs_file/lines end in three ways", line_ends);
     g_test_add_func("/material/nurbs_file/IGES has units and a scale", iges_units);
     g_test_add_func("/material/nurbs_file/IGES surfaces are cut to their range", iges_range);
