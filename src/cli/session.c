@@ -26,6 +26,7 @@ static void watch_signals(FrProgress *progress) {
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    signal(SIGXFSZ, SIG_IGN); // a write then fails with EFBIG, and what it has begun is taken away
 }
 
 int cli_session_signal(void) {

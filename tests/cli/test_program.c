@@ -336,6 +336,27 @@ static void test_interrupted(void) {
     leave_folder(folder, previous);
 }
 
+/// A limit of the shell for files is an error like a full disk, and leaves no part.
+static void test_file_size_limit(void) {
+    char *previous;
+    char *folder = enter_folder(&previous);
+    struct rlimit old, low;
+    g_assert_cmpint(getrlimit(RLIMIT_FSIZE, &old), ==, 0);
+    low = (struct rlimit){.rlim_cur = 8192, .rlim_max = old.rlim_max};
+    g_assert_cmpint(setrlimit(RLIMIT_FSIZE, &low), ==, 0);
+    Run did = run("build $S/examples/figure2.frond -o a.stp");
+    g_assert_cmpint(setrlimit(RLIMIT_FSIZE, &old), ==, 0);
+    g_assert_cmpint(did.exit, ==, 4);
+    g_assert_nonnull(strstr(did.err, "cannot write 'a.stp': File too large"));
+    clear(&did);
+    g_remove("out.txt");
+    g_remove("err.txt");
+    GDir *directory = g_dir_open(".", 0, NULL);
+    g_assert_null(g_dir_read_name(directory));
+    g_dir_close(directory);
+    leave_folder(folder, previous);
+}
+
 /// Each shell's completion offers every verb that the program has.
 static void test_completions(void) {
     static const char *const files[] = {"data/frond.bash", "data/frond.zsh", "data/frond.fish"};
@@ -373,6 +394,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/cli/a seed gives the same plant for any number of threads", test_same_seed);
     g_test_add_func("/cli/a preset begins a document and overwrites none", test_new);
     g_test_add_func("/cli/an interrupt leaves no file", test_interrupted);
+    g_test_add_func("/cli/a limit of file size leaves no file", test_file_size_limit);
     g_test_add_func("/cli/completions offer every verb", test_completions);
     return g_test_run();
 }
