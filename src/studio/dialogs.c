@@ -48,6 +48,7 @@ void studio_window_show_preferences(StudioWindow *window) {
                               switch_row("Dark", "Plants stand out on a dark ground", &dark));
     gtk_switch_set_active(GTK_SWITCH(dark), studio_settings_bool(window->settings, "dark", true));
     g_signal_connect(dark, "notify::active", G_CALLBACK(on_dark), window);
+    gtk_widget_set_visible(picture, window->document != NULL);
     if (window->document != NULL) {
         gtk_widget_insert_action_group(dialog, "win", G_ACTION_GROUP(window));
         adw_preferences_group_add(

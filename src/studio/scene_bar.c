@@ -140,7 +140,7 @@ static GtkWidget *make_options(StudioSceneTool *tool) {
                           "What is planted: of this document, or a preset");
     gtk_drop_down_set_enable_search(GTK_DROP_DOWN(tool->what), TRUE);
     gtk_widget_set_name(tool->what, "scene-what");
-    gtk_widget_set_size_request(tool->what, 150, -1);
+    gtk_widget_set_size_request(tool->what, 130, -1);
     tool->radius =
         labelled(groups[1], "_Radius in m", spin(0.05, 500, 0.5, 4, 2), "How wide the brush is");
     tool->density = labelled(groups[2], "_Density", spin(0.01, 10000, 1, 8, 2),
@@ -164,25 +164,25 @@ static void on_done(GtkButton *button, StudioSceneTool *tool) {
 }
 
 static GtkWidget *make_bar(StudioSceneTool *tool) {
-    GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 14);
-    GtkWidget *left = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
+    GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
+    GtkWidget *top = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 14);
     tool->hint = gtk_label_new("");
     gtk_label_set_xalign(GTK_LABEL(tool->hint), 0);
+    gtk_label_set_ellipsize(GTK_LABEL(tool->hint), PANGO_ELLIPSIZE_END);
+    gtk_widget_set_hexpand(tool->hint, TRUE);
     gtk_widget_add_css_class(tool->hint, "scene-hint");
-    gtk_widget_set_valign(left, GTK_ALIGN_CENTER);
-    gtk_box_append(GTK_BOX(left), tool->hint);
-    gtk_box_append(GTK_BOX(left), make_options(tool));
-    gtk_box_append(GTK_BOX(row), left);
+    gtk_box_append(GTK_BOX(top), tool->hint);
     GtkWidget *done = gtk_button_new_with_label("Done");
     gtk_widget_set_tooltip_text(done, "Back to choosing branches and leaves (Esc)");
-    gtk_widget_set_valign(done, GTK_ALIGN_CENTER);
     g_signal_connect(done, "clicked", G_CALLBACK(on_done), tool);
-    gtk_box_append(GTK_BOX(row), done);
-    gtk_widget_add_css_class(row, "scene-bar");
+    gtk_box_append(GTK_BOX(top), done);
+    gtk_box_append(GTK_BOX(bar), top);
+    gtk_box_append(GTK_BOX(bar), make_options(tool));
+    gtk_widget_add_css_class(bar, "scene-bar");
     tool->bar = gtk_revealer_new();
     gtk_revealer_set_transition_type(GTK_REVEALER(tool->bar),
                                      GTK_REVEALER_TRANSITION_TYPE_CROSSFADE);
-    gtk_revealer_set_child(GTK_REVEALER(tool->bar), row);
+    gtk_revealer_set_child(GTK_REVEALER(tool->bar), bar);
     gtk_widget_set_halign(tool->bar, GTK_ALIGN_CENTER);
     gtk_widget_set_valign(tool->bar, GTK_ALIGN_END);
     return tool->bar;

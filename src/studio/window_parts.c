@@ -278,7 +278,7 @@ static GtkWidget *make_middle(StudioWindow *window) {
     window->scene = studio_scene_tool_new(window, overlay);
     window->amount = gtk_label_new("");
     gtk_widget_add_css_class(window->amount, "amount");
-    gtk_widget_set_halign(window->amount, GTK_ALIGN_START);
+    gtk_widget_set_halign(window->amount, GTK_ALIGN_END); // below the modes: beside is no room
     gtk_widget_set_valign(window->amount, GTK_ALIGN_START);
     gtk_widget_set_can_target(window->amount, FALSE);
     gtk_overlay_add_overlay(overlay, window->amount);
