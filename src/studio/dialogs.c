@@ -1,4 +1,5 @@
 /// Preferences, shortcuts, about, and the question before something is lost.
+#include "studio/model/graph.h"
 #include "studio/window_private.h"
 
 #include <string.h>
@@ -34,6 +35,26 @@ static GtkWidget *display_row(const char *title, const char *subtitle, const cha
     return row;
 }
 
+static void on_budget(GtkSpinButton *button, StudioWindow *window) {
+    int budget = gtk_spin_button_get_value_as_int(button);
+    studio_settings_set_int(window->settings, "budget", budget);
+    studio_graph_panel_set_budget(window->graph, (uint64_t)budget);
+}
+
+static GtkWidget *budget_row(StudioWindow *window) {
+    GtkWidget *row = adw_action_row_new(), *button = gtk_spin_button_new_with_range(0, 1e9, 50000);
+    adw_preferences_row_set_title(ADW_PREFERENCES_ROW(row), "Budget");
+    adw_action_row_set_subtitle(ADW_ACTION_ROW(row),
+                                "Components with more instances are amber; 0: none is");
+    gtk_spin_button_set_value(GTK_SPIN_BUTTON(button),
+                              studio_settings_int(window->settings, "budget", STUDIO_USUAL_BUDGET));
+    gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
+    adw_action_row_add_suffix(ADW_ACTION_ROW(row), button);
+    adw_action_row_set_activatable_widget(ADW_ACTION_ROW(row), button);
+    g_signal_connect(button, "value-changed", G_CALLBACK(on_budget), window);
+    return row;
+}
+
 void studio_window_show_preferences(StudioWindow *window) {
     GtkWidget *dialog = adw_preferences_window_new();
     GtkWidget *page = adw_preferences_page_new();
@@ -49,6 +70,9 @@ void studio_window_show_preferences(StudioWindow *window) {
     gtk_switch_set_active(GTK_SWITCH(dark), studio_settings_bool(window->settings, "dark", true));
     g_signal_connect(dark, "notify::active", G_CALLBACK(on_dark), window);
     gtk_widget_set_visible(picture, window->document != NULL);
+    GtkWidget *graph = adw_preferences_group_new();
+    adw_preferences_group_set_title(ADW_PREFERENCES_GROUP(graph), "Graph");
+    adw_preferences_group_add(ADW_PREFERENCES_GROUP(graph), budget_row(window));
     if (window->document != NULL) {
         gtk_widget_insert_action_group(dialog, "win", G_ACTION_GROUP(window));
         adw_preferences_group_add(
@@ -63,6 +87,7 @@ void studio_window_show_preferences(StudioWindow *window) {
     }
     adw_preferences_page_add(ADW_PREFERENCES_PAGE(page), ADW_PREFERENCES_GROUP(look));
     adw_preferences_page_add(ADW_PREFERENCES_PAGE(page), ADW_PREFERENCES_GROUP(picture));
+    adw_preferences_page_add(ADW_PREFERENCES_PAGE(page), ADW_PREFERENCES_GROUP(graph));
     adw_preferences_window_add(ADW_PREFERENCES_WINDOW(dialog), ADW_PREFERENCES_PAGE(page));
     gtk_window_set_transient_for(GTK_WINDOW(dialog), GTK_WINDOW(window));
     gtk_window_set_modal(GTK_WINDOW(dialog), TRUE);

@@ -72,13 +72,38 @@ static void draw_second(cairo_t *cairo, const graphene_rect_t *rect, const doubl
     cairo_stroke(cairo);
 }
 
+static const double amber[3] = {0.93, 0.71, 0.08};
+
+// What stands below a box's name: how many there are, in amber with a mark if that is many.
+static void draw_count(StudioGraphPanel *panel, cairo_t *cairo, const StudioBox *box,
+                       const graphene_rect_t *rect, const GdkRGBA *ink) {
+    double scale = studio_graph_scale(panel), strength = box->is_enabled ? 0.6 : 0.24;
+    uint64_t *count = panel->counts == NULL ? NULL : g_hash_table_lookup(panel->counts, box->id);
+    cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, strength);
+    char *number = count == NULL ? NULL : short_count(*count), *shown;
+    if (!box->is_enabled) {
+        shown = g_strdup("off");
+    } else if (count == NULL) {
+        shown = g_strdup(fr_pgraph_table(box->kind)->element);
+    } else if (studio_load_of(*count, panel->budget) == STUDIO_LOAD_HEAVY) {
+        cairo_set_source_rgb(cairo, amber[0], amber[1], amber[2]);
+        shown = g_strdup_printf("\u25b2 %s", number);
+    } else {
+        shown = g_strdup(number);
+    }
+    text_at(panel, cairo, shown, rect->origin.x + 30 * scale, rect->origin.y + 18 * scale,
+            rect->size.width - 34 * scale, 11 * scale, false);
+    g_free(shown);
+    g_free(number);
+}
+
 static void draw_box(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index, const GdkRGBA *ink) {
     const StudioBox *box = studio_graph_box(panel->graph, index);
     graphene_rect_t rect = studio_graph_box_rect(panel, index);
     double x = rect.origin.x, y = rect.origin.y, scale = studio_graph_scale(panel);
     uint64_t *count = panel->counts == NULL ? NULL : g_hash_table_lookup(panel->counts, box->id);
     bool is_chosen = box->element == panel->selected;
-    bool is_empty = count != NULL && *count == 0;
+    StudioLoad load = count == NULL ? STUDIO_LOAD_FINE : studio_load_of(*count, panel->budget);
     double colour[3], strength = box->is_enabled ? 1 : 0.4;
     studio_component_colour(box->kind, colour);
     if (box->is_recursive) { // drawn double: it follows upon itself
@@ -92,15 +117,17 @@ static void draw_box(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index, co
     cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2],
                           (is_chosen ? 0.45 : 0.2) * strength);
     cairo_fill_preserve(cairo);
-    if (is_empty) {
+    if (load == STUDIO_LOAD_NOTHING) {
         cairo_set_source_rgb(cairo, 0.88, 0.22, 0.2);
+    } else if (load == STUDIO_LOAD_HEAVY) {
+        cairo_set_source_rgb(cairo, amber[0], amber[1], amber[2]);
     } else if (is_chosen) {
         cairo_set_source_rgb(cairo, 1.0, 0.62, 0.13);
     } else {
         cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], 0.75 * strength);
     }
     bool is_target = panel->drag != DRAG_NOTHING && panel->is_dragged && panel->over == index;
-    cairo_set_line_width(cairo, is_chosen || is_empty || is_target ? 2 : 1);
+    cairo_set_line_width(cairo, is_chosen || load != STUDIO_LOAD_FINE || is_target ? 2 : 1);
     cairo_stroke(cairo);
     cairo_save(cairo);
     cairo_translate(cairo, x + 7 * scale, y + 9 * scale);
@@ -110,13 +137,7 @@ static void draw_box(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index, co
     cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, strength);
     text_at(panel, cairo, box->id, x + 30 * scale, y + 3 * scale, rect.size.width - 34 * scale,
             12.5 * scale, true);
-    char *shown = !box->is_enabled ? g_strdup("off")
-                  : count == NULL  ? g_strdup(fr_pgraph_table(box->kind)->element)
-                                   : short_count(*count);
-    cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, 0.6 * strength);
-    text_at(panel, cairo, shown, x + 30 * scale, y + 18 * scale, rect.size.width - 34 * scale,
-            11 * scale, false);
-    g_free(shown);
+    draw_count(panel, cairo, box, &rect, ink);
 }
 
 static void draw_tools(StudioGraphPanel *panel, cairo_t *cairo, const GdkRGBA *ink) {

@@ -202,6 +202,11 @@ void studio_graph_panel_set_counts(StudioGraphPanel *panel, const GArray *counts
     gtk_widget_queue_draw(GTK_WIDGET(panel));
 }
 
+void studio_graph_panel_set_budget(StudioGraphPanel *panel, uint64_t budget) {
+    panel->budget = budget;
+    gtk_widget_queue_draw(GTK_WIDGET(panel));
+}
+
 gboolean studio_graph_panel_where(StudioGraphPanel *panel, const char *name, graphene_rect_t *box) {
     if (g_str_has_prefix(name, "box:")) {
         uint32_t found = studio_graph_find(panel->graph, name + strlen("box:"));

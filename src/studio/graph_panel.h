@@ -17,5 +17,7 @@ void studio_graph_panel_show(StudioGraphPanel *panel, StudioDocument *document, 
                              uint32_t selected);
 /// How many instances each component has (StudioCount); copied.
 void studio_graph_panel_set_counts(StudioGraphPanel *panel, const GArray *counts);
+/// How many instances of a component are fine, as in studio_load_of().
+void studio_graph_panel_set_budget(StudioGraphPanel *panel, uint64_t budget);
 /// Where in the panel the box of a component is ("box:stem") or a tool ("tool:leaf").
 gboolean studio_graph_panel_where(StudioGraphPanel *panel, const char *name, graphene_rect_t *box);

@@ -28,6 +28,7 @@ struct _StudioGraphPanel {
     uint32_t selected; // element
     StudioGraph *graph;
     GHashTable *counts;      // id → instances; NULL: not known
+    uint64_t budget;         // as in studio_load_of()
     double shift_x, shift_y; // of the graph within the panel
     DragKind drag;
     uint32_t held;   // tool or box

@@ -1,4 +1,5 @@
 /// What a window is made of.
+#include "studio/model/graph.h"
 #include "studio/views_menu.h"
 #include "studio/window_private.h"
 
@@ -141,6 +142,9 @@ static GtkWidget *make_add(void) {
 static GtkWidget *make_side(StudioWindow *window) {
     window->side = gtk_stack_new();
     window->graph = STUDIO_GRAPH_PANEL(studio_graph_panel_new());
+    studio_graph_panel_set_budget(
+        window->graph,
+        (uint64_t)MAX(studio_settings_int(window->settings, "budget", STUDIO_USUAL_BUDGET), 0));
     window->things = STUDIO_THINGS_PANEL(studio_things_panel_new());
     window->lsystem = STUDIO_TEXT_PANEL(studio_text_panel_new("frond-lsystem"));
     window->text = STUDIO_TEXT_PANEL(studio_text_panel_new("xml"));

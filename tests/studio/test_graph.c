@@ -99,11 +99,22 @@ static void test_likely(void) {
     g_assert_cmpstr(studio_link_words(FR_LINK_BRANCH, FR_COMPONENT_TREE), ==, "along the stem");
 }
 
+static void test_load(void) {
+    g_assert_cmpint(studio_load_of(0, 0), ==, STUDIO_LOAD_NOTHING);
+    g_assert_cmpint(studio_load_of(0, 10), ==, STUDIO_LOAD_NOTHING);
+    g_assert_cmpint(studio_load_of(10, 10), ==, STUDIO_LOAD_FINE);
+    g_assert_cmpint(studio_load_of(11, 10), ==, STUDIO_LOAD_HEAVY);
+    g_assert_cmpint(studio_load_of(UINT64_MAX, 0), ==, STUDIO_LOAD_FINE);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/studio/graph/figure 2 is a chain with a recursion", test_figure2);
     g_test_add_func("/studio/graph/presets are laid out apart and without crossings", test_layout);
     g_test_add_func("/studio/graph/what nothing leads to is shown too", test_unlinked);
     g_test_add_func("/studio/graph/links stand where they are most probably meant", test_likely);
+    g_test_add_func(
+        "/studio/graph/a component over the budget is heavy, one without instances empty",
+        test_load);
     return g_test_run();
 }

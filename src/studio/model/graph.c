@@ -3,6 +3,12 @@
 #include <math.h>
 #include <string.h>
 
+StudioLoad studio_load_of(uint64_t instances, uint64_t budget) {
+    return instances == 0                     ? STUDIO_LOAD_NOTHING
+           : budget > 0 && instances > budget ? STUDIO_LOAD_HEAVY
+                                              : STUDIO_LOAD_FINE;
+}
+
 const StudioBox *studio_graph_box(const StudioGraph *graph, uint32_t box) {
     return &g_array_index(graph->boxes, StudioBox, box);
 }

@@ -28,6 +28,14 @@ typedef struct StudioGraph {
     double columns, rows;
 } StudioGraph;
 
+/// What a component's number of instances says.
+typedef enum StudioLoad { STUDIO_LOAD_NOTHING, STUDIO_LOAD_FINE, STUDIO_LOAD_HEAVY } StudioLoad;
+
+/// More instances of one component than this are worth a word, unless the user says otherwise.
+enum { STUDIO_USUAL_BUDGET = 250000 };
+
+/// `budget`: the most instances of one component that are fine; 0: any number is.
+StudioLoad studio_load_of(uint64_t instances, uint64_t budget);
 /// The graph of a plant; empty if it has none. Laid out as a tidy tree: parents above the middle of
 /// their children, in the order of the document, no two boxes in one place.
 StudioGraph *studio_graph_new(const FrContents *contents, uint32_t plant);
