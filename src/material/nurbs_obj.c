@@ -174,7 +174,7 @@ static void read_parameters(FrObjReader *obj, const char *at) {
     }
     GArray *knots = obj->knots[*name == 'v'];
     g_array_set_size(knots, 0);
-    for (at = skip_blanks(name + 1); *at != '\0'; at = skip_blanks(at)) {
+    for (at = skip_blanks(name + 1); *at != '\0' && *at != '#'; at = skip_blanks(at)) {
         const char *word = at;
         double knot = next_number(&at);
         if (isnan(knot) || skip_word(at) != at) {

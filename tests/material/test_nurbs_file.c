@@ -123,6 +123,9 @@ static void obj_words(void) {
     for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
         load_told("q.obj", texts[i][0], -1, "bad-surfaces", texts[i][1]);
     }
+    // What stands behind a # is a comment.
+    fr_mesh_file_unref(
+        load("q.obj", SURF "parm u 0 0 0 1 1 1 # x\nparm v 0 0 1 1\nend\n", -1, NULL));
     // Those of curves are passed over.
     fr_mesh_file_unref(
         load("q.obj",
