@@ -19,7 +19,10 @@ void fr_read_check_file(FrReader *reader, uint32_t node, const char *attribute, 
     }
     char *path = g_build_filename(reader->document->folder, file, NULL);
     if (!g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
-        fr_read_error(reader, "missing-file", place, "there is no file '%s'", path);
+        fr_read_error(reader, "missing-file", place,
+                      g_file_test(path, G_FILE_TEST_EXISTS) ? "'%s' is not a file"
+                                                            : "there is no file '%s'",
+                      path);
     }
     g_free(path);
 }

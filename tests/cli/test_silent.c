@@ -79,6 +79,9 @@ static const Case cases[] = {
      GRAPH("<tree id=\"t\" relief=\"0.2\" buttresses=\"4\"/>"), "build a.frond -o a.stp -o a.igs",
      0, "*a.stp: *",
      "a.frond:2:*warning: 'p': its surfaces are without buttresses, relief [left-out]\n    2 | *"},
+    {"a folder is not said to be missing",
+     GRAPH("<simple id=\"s\" primitive=\"mesh\" file=\".\"/>"), "check a.frond", 1, "",
+     "a.frond:2:*' is not a file [missing-file]*"},
     {"a slip of a digit is refused before there is a mesh",
      GRAPH("<tree id=\"t\" number=\"1000\"/><tree id=\"b\" number=\"1000\"/><leaf id=\"leaf\"/>"
            "<link from=\"t\" to=\"b\" kind=\"branch\"/><link from=\"b\" to=\"leaf\" "
