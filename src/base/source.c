@@ -147,6 +147,10 @@ static FrSource *load_open_file(int file, const char *path, uint64_t max_bytes, 
 }
 
 FrSource *fr_source_load(const char *path, uint64_t max_bytes, FrDiags *diags, FrStatus *status) {
+    // What is beside a file of this folder is called as it is there.
+    while (g_str_has_prefix(path, "./") && path[2] != '/' && path[2] != '\0') {
+        path += 2;
+    }
     // Not blocking: opening a pipe that nobody writes to must not hang.
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) {

@@ -160,6 +160,21 @@ static void test_load(void) {
     remove_folder(folder);
 }
 
+static void test_load_beside(void) {
+    Folder folder = make_folder();
+    char *previous = g_get_current_dir();
+    g_assert_true(g_file_set_contents(folder.file, "a", 1, NULL));
+    g_assert_cmpint(g_chdir(folder.path), ==, 0);
+    FrStatus status;
+    FrSource *source = fr_source_load_beside("file", ".", (FrSpan){0}, 4, NULL, &status);
+    g_assert_cmpint(g_chdir(previous), ==, 0);
+    g_assert_cmpint(status, ==, FR_OK);
+    g_assert_cmpstr(fr_source_name(source), ==, "file");
+    fr_source_unref(source);
+    g_free(previous);
+    remove_folder(folder);
+}
+
 static void test_too_big(void) {
     Folder folder = make_folder();
     g_assert_true(g_file_set_contents(folder.file, "12345", 5, NULL));
@@ -189,6 +204,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/base/source/what is wrong within a text is told of the text around it",
                     test_within);
     g_test_add_func("/base/source/a file is read whole, zero bytes too", test_load);
+    g_test_add_func("/base/source/a file of this folder is called by its name alone",
+                    test_load_beside);
     g_test_add_func("/base/source/a file over the limit is not read", test_too_big);
     g_test_add_func("/base/source/what is no file is refused at once", test_not_a_file);
     return g_test_run();
