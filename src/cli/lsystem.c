@@ -145,7 +145,11 @@ static bool has_lsystem(const FrDocument *document) {
 FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document) {
     const CliOptions *options = session->options;
     FrStatus status = FR_OK;
-    if (options->view != NULL) {
+    if (options->view != NULL && !g_file_test(options->view, G_FILE_TEST_IS_REGULAR)) {
+        fr_diags_add(session->context.diags, FR_ERROR, "missing-file", (FrSpan){0},
+                     "the file '%s' of --view is not there", options->view);
+        status = FR_ERR_DOCUMENT;
+    } else if (options->view != NULL) {
         char *path = g_canonicalize_filename(options->view, NULL);
         status = set_all(session, document, "view", path);
         g_free(path);

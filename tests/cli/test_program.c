@@ -95,6 +95,7 @@ static const Command commands[] = {
     {"derive $S/examples/lsystems/monopodial.l --steps 2 --set r1=0.5", 0, "*0.5*", ""},
     {"info $S/examples/lsystems/bush.l --steps 2", 0, "*modules*axes*", ""},
     {"check $S/examples/lsystems/bush.l", 0, "", ""},
+    {"check $S/examples/lsystems/bush.l --view none.v", 1, "", "error: *'none.v' of --view*"},
     {"info $S/examples/lsystems/signal.l", 0, "*production*drawn*", ""},
     {"build $S/examples/lsystems/bush.l --time 3", 2, "", "frond: --time is for components*"},
     {"render $S/examples/lsystems/koch.l --frames 0..2 -o koch.png --size 16x16 --samples 1 -q", 0,
