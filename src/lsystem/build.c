@@ -193,9 +193,8 @@ uint32_t fr_lbuilder_material(FrLbuilder *builder, const FrLpose *pose, uint32_t
 void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at[3], uint32_t shape,
                        double scale, uint32_t material) {
     FrPlant *plant = builder->plant;
-    FrStatus status =
-        fr_lbuilder_limit(builder, plant->organs.count + UINT64_C(1),
-                          builder->context->limits.organs, "organs", "the organs of the string");
+    FrStatus status = fr_lbuilder_limit(builder, plant->organs.count + UINT64_C(1),
+                                        builder->context->limits.organs, "organs", "the string");
     if (status != FR_OK || !(scale > 1e-9) || !isfinite(scale)) {
         builder->status = MAX(builder->status, status);
         return;

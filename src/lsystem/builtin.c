@@ -240,7 +240,9 @@ double fr_lbuiltin_call(FrLmachine *machine, uint32_t index, const double *x, ui
         machine->is_stopped = machine->is_stopped || x[0] != 1;
         return 0;
     case F_SET_LENGTH:
-        if (machine->set_length != NULL && x[0] >= 0) {
+        if (!(x[0] >= 0)) {
+            fr_lmachine_fault(machine, "negative-length", place);
+        } else if (machine->set_length != NULL) {
             *machine->set_length = (int64_t)MIN(x[0], 9e18);
         }
         return 0;

@@ -48,7 +48,7 @@ uint32_t fr_linstance_new(FrLderivation *derivation, const FrLunit *unit,
         FrStatus status =
             fr_limit_check(slot > MOST_INSTANCES ? slot : variables,
                            slot > MOST_INSTANCES ? MOST_INSTANCES : MOST_VARIABLES, "calls",
-                           "calls of L-systems", (FrSpan){0}, context->diags);
+                           "calling L-systems", unit->axiom_span, context->diags);
         return status == FR_OK ? 0 : FR_NONE;
     }
     FrLinstance *instance = g_new0(FrLinstance, 1);
@@ -100,6 +100,9 @@ static const char *fault_text(const char *code) {
     }
     if (strcmp(code, "missing-file") == 0) {
         return "this file is not there, beside the L-system; nothing is read";
+    }
+    if (strcmp(code, "negative-length") == 0) {
+        return "a derivation length is not negative; it stays as it is";
     }
     if (strcmp(code, "left-out") == 0) {
         return "files are read but not written";
@@ -166,7 +169,8 @@ FrStatus fr_lderive_limit(const FrLderivation *derivation, uint64_t wanted, uint
     char *who =
         g_strdup_printf("%s (step %" G_GUINT64_FORMAT ", module %" G_GUINT64_FORMAT ")",
                         production == NULL ? what : production->name, derivation->step, module + 1);
-    FrSpan span = production == NULL ? (FrSpan){0} : production->span;
+    FrSpan span =
+        production == NULL ? place_span(derivation->system, FR_LPLACE_AXIOM) : production->span;
     FrStatus status = fr_limit_check(wanted, limit, limit_name, who, span, context->diags);
     g_free(who);
     return status;
@@ -232,7 +236,7 @@ static FrStatus make_axiom(FrLderivation *derivation, const FrContext *context) 
     const FrLunit *unit = g_ptr_array_index(system->units, 0);
     FrLstring *string = derivation->string;
     FrStatus status = fr_limit_check(unit->axiom_modules, context->limits.modules, "modules",
-                                     "the axiom", (FrSpan){0}, context->diags);
+                                     "the axiom", unit->axiom_span, context->diags);
     if (status != FR_OK) {
         return status;
     }
@@ -267,11 +271,29 @@ static FrStatus check_length(const FrLderivation *derivation, const FrLunit *uni
     if (derivation->length <= MOST_STEPS) {
         return FR_OK;
     }
+    char amount[32] = "over 10^15"; // where bits may have been lost
+    if (derivation->length <= 1000000000000000) {
+        g_snprintf(amount, sizeof amount, "%" G_GINT64_FORMAT, derivation->length);
+    }
     fr_diags_add(context->diags, FR_ERROR, "limit-steps",
                  place_span(derivation->system, unit->length),
-                 "the derivation length is %" G_GINT64_FORMAT "; at most %d steps are done",
-                 derivation->length, MOST_STEPS);
+                 "the derivation length is %s; at most %d steps are done", amount, MOST_STEPS);
     return FR_ERR_LIMIT;
+}
+
+/// The derivation length of the text or the settings.
+static void find_length(FrLderivation *derivation, const FrLunit *unit, const FrContext *context) {
+    double length =
+        unit->length == FR_NONE ? 0 : fr_lmachine_run(&derivation->machine, unit->length);
+    derivation->length = length >= 0 ? (int64_t)MIN(length, 9e15) : 0;
+    if (derivation->settings.steps >= 0) {
+        derivation->length = derivation->settings.steps;
+    } else if (!(length >= 0)) {
+        fr_diags_add(context->diags, FR_WARNING, "negative-length",
+                     place_span(derivation->system, unit->length),
+                     "the derivation length is %s; no step is done",
+                     isnan(length) ? "no number" : "negative");
+    }
 }
 
 static FrStatus begin(FrLderivation *derivation, const FrContext *context) {
@@ -282,12 +304,7 @@ static FrStatus begin(FrLderivation *derivation, const FrContext *context) {
     }
     FrLinstance *instance = g_ptr_array_index(derivation->instances, 0);
     seed_choice(derivation, unit);
-    double length =
-        unit->length == FR_NONE ? 0 : fr_lmachine_run(&derivation->machine, unit->length);
-    derivation->length = length >= 0 ? (int64_t)MIN(length, 9e15) : 0;
-    if (derivation->settings.steps >= 0) {
-        derivation->length = derivation->settings.steps;
-    }
+    find_length(derivation, unit, context);
     fr_linstance_enter(derivation, instance);
     machine->set_length = derivation->settings.steps < 0 ? &derivation->length : NULL;
     instance->has_started = instance->was_seen = true;

@@ -67,7 +67,7 @@ void fr_linstance_block(FrLderivation *derivation, FrLinstance *instance, int bl
 /// Makes the variables of an instance those of the machine.
 void fr_linstance_enter(FrLderivation *derivation, FrLinstance *instance);
 /// fr_limit_check() for what is asked for at a module of the step at hand, which is told with it;
-/// `production` NULL: `what` asks.
+/// `production` NULL: `what` asks, and its place is the axiom.
 FR_MUST_USE FrStatus fr_lderive_limit(const FrLderivation *derivation, uint64_t wanted,
                                       uint64_t limit, const char *limit_name,
                                       const FrLproduction *production, const char *what,

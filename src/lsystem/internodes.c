@@ -104,8 +104,8 @@ static bool grow_nodes(FrLbuilder *builder, uint32_t maker, uint64_t module) {
     builder->module = module;
     fr_lbuilder_settle_frames(builder);
     uint64_t most = MIN(builder->context->limits.nodes, FR_NONE - UINT64_C(1));
-    FrStatus status = fr_lbuilder_limit(builder, builder->nodes + UINT64_C(1), most, "nodes",
-                                        "the segments of the string");
+    FrStatus status =
+        fr_lbuilder_limit(builder, builder->nodes + UINT64_C(1), most, "nodes", "the string");
     if (status != FR_OK) {
         builder->status = status;
         return false;

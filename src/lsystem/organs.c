@@ -28,9 +28,8 @@ static uint32_t add_mesh(FrLbuilder *builder, const float (*corners)[3], uint32_
     shape.detail = fr_plant_add_profile(plant, (const double(*)[2])points, 2 * count, false);
     shape.size = (vec3s){{(float)stretch[0], (float)stretch[1], (float)stretch[2]}};
     g_free(points);
-    FrStatus status =
-        fr_lbuilder_limit(builder, plant->shapes->len + UINT64_C(1),
-                          builder->context->limits.shapes, "shapes", "the polygons of the string");
+    FrStatus status = fr_lbuilder_limit(builder, plant->shapes->len + UINT64_C(1),
+                                        builder->context->limits.shapes, "shapes", "the string");
     if (status != FR_OK) {
         builder->status = MAX(builder->status, status);
         return FR_NONE;

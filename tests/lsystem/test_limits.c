@@ -47,6 +47,26 @@ static void drawing(void) {
     check_drawing("w : {.\np1 : . -> ..\n", 22, "the limit 'corners'");
 }
 
+/// What no production made has its place in the axiom.
+static void axioms(void) {
+    GString *text = g_string_new("w : ");
+    for (int i = 0; i <= 100000; i++) {
+        g_string_append_c(text, '[');
+    }
+    g_string_append(text, "A\np1 : A -> F\n");
+    Derived d = begin(text->str, 1);
+    FrPlant *plant;
+    g_assert_cmpint(fr_lderivation_plant(d.derivation, &d.context, &plant, NULL), ==, FR_ERR_LIMIT);
+    const FrDiag *diag = fr_diags_get(d.context.diags, fr_diags_count(d.context.diags) - 1);
+    g_assert_nonnull(strstr(diag->text, "the limit 'brackets'"));
+    uint32_t line, column;
+    fr_source_position(diag->span.source, diag->span.begin, &line, &column);
+    g_assert_cmpuint(line, ==, 1);
+    g_assert_cmpuint(column, ==, 5);
+    end(&d);
+    g_string_free(text, TRUE);
+}
+
 static void internodes(void) {
     Derived d = begin("w : F\np1 : F -> FF\n", 1);
     FrPlant *plant;
@@ -93,6 +113,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/lsystem/limits/a text has so many variables, functions, productions",
                     reading);
     g_test_add_func("/lsystem/limits/a drawing has so many brackets and corners", drawing);
+    g_test_add_func("/lsystem/limits/brackets of the axiom are refused at its place", axioms);
     g_test_add_func("/lsystem/limits/too many internodes are told of once", internodes);
     g_test_add_func("/lsystem/limits/a step has so many bytes and calls", deriving);
     return g_test_run();
