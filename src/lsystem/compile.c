@@ -122,7 +122,8 @@ static bool begins_as_cpfg(const FrLtext *text) {
     return g_ascii_strncasecmp(c, "lsystem", 7) == 0 || g_ascii_strncasecmp(c, "l-system", 8) == 0;
 }
 
-/// Values that nothing in the file asks for are slips of the finger.
+/// Values that nothing in the file asks for are slips of the finger. In a text with errors what
+/// asks for them may not have been read.
 static void report_unused(FrLparser *parser) {
     const GPtrArray *defined = parser->text->defined;
     for (size_t i = 0; i < parser->value_count; i++) {
@@ -151,6 +152,7 @@ static FrStatus parse(FrLsystem *system, const FrLoptions *options, const FrCont
                         .value_count = options->value_count,
                         .is_used = g_new0(bool, options->value_count + 1),
                         .is_round = options->round_brackets,
+                        .errors = system->text->is_cut,
                         .names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL)};
     for (size_t i = 0; i < options->value_count; i++) {
         g_array_append_val(system->values, options->values[i].value);
@@ -165,7 +167,9 @@ static FrStatus parse(FrLsystem *system, const FrLoptions *options, const FrCont
             fr_lparse_error(&parser, 0, 1, "syntax", "there is no 'Lsystem:' in this file");
         }
     }
-    report_unused(&parser);
+    if (parser.errors == 0) {
+        report_unused(&parser);
+    }
     if (parser.errors == 0) {
         fr_lwarn(system, context->diags);
     }

@@ -19,8 +19,8 @@ static void complain(FrLparser *parser, FrSeverity severity, size_t begin, size_
 
 void fr_lparse_error(FrLparser *parser, size_t begin, size_t end, const char *code,
                      const char *format, ...) {
-    if (parser->has_failed) {
-        return; // one error a line; what follows from it is noise
+    if (parser->has_failed || (parser->text->is_cut && begin >= parser->size)) {
+        return; // one error a line, none where a comment hides the text; what follows is noise
     }
     va_list values;
     va_start(values, format);

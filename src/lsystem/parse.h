@@ -26,7 +26,8 @@ typedef struct FrLparser {
     bool is_round;       ///< round brackets branch
     bool has_failed;     ///< within this line
     uint32_t errors;
-    GHashTable *names; ///< name of a production → how many have it
+    GHashTable *names;    ///< name of a production → how many have it
+    const char *function; ///< name of that whose definition is being read, NULL outside
 } FrLparser;
 
 void fr_lparse_error(FrLparser *parser, size_t begin, size_t end, const char *code,

@@ -322,8 +322,10 @@ static void read_call(FrLparser *parser, const char *name, size_t begin) {
     }
     function = fr_lbuiltin_find(name, &least, &most);
     if (function == FR_NONE) {
-        fr_lparse_error(parser, begin, begin + strlen(name), "unknown-function",
-                        "there is no function '%s'", name);
+        bool is_own = parser->function != NULL && strcmp(parser->function, name) == 0;
+        fr_lparse_error(
+            parser, begin, begin + strlen(name), is_own ? "recursive-call" : "unknown-function",
+            is_own ? "the function '%s' cannot call itself" : "there is no function '%s'", name);
         return;
     }
     read_builtin(parser, function, name, least, most, begin);

@@ -41,7 +41,9 @@ static void read_function(FrLparser *parser, char *name) {
     } while (!parser->has_failed && fr_lparse_accept(parser, ","));
     fr_lparse_expect(parser, ")");
     fr_lparse_expect(parser, "=");
+    parser->function = name;
     function.code = fr_lparse_value(parser);
+    parser->function = NULL;
     g_hash_table_unref(parser->locals);
     parser->locals = NULL;
     if (!parser->has_failed && parser->system->functions->len >= 64) {

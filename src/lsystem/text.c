@@ -27,6 +27,7 @@ typedef struct Line {
     GArray *origins; ///< uint32_t
     guint file;
     size_t begin, end; ///< in the source
+    size_t comment;    ///< where one begins that nothing ends, else SIZE_MAX
 } Line;
 
 /// One #if: whether its branch is read now, whether any was.
@@ -73,6 +74,7 @@ static size_t read_line(Line *line, const char *text, size_t size, size_t at) {
         if (!is_quoted && c == '/' && next == '*') {
             const char *close = g_strstr_len(text + at + 2, (gssize)(size - at - 2), "*/");
             put(line, ' ', at);
+            line->comment = close == NULL ? at : SIZE_MAX;
             at = close == NULL ? size : (size_t)(close - text) + 2;
             continue;
         }
@@ -192,7 +194,7 @@ static bool is_true(Reader *reader, const Line *line, const char *word, const ch
     bool is_valid;
     long long value = fr_lmacros_condition(&reader->macros, rest, &is_valid);
     if (!is_valid) {
-        complain(reader, line, "directive", "this is no condition: ", rest);
+        complain(reader, line, "directive", "this is no condition: ", rest + strspn(rest, " \t"));
     }
     return is_valid && value != 0;
 }
@@ -289,10 +291,16 @@ static void read_source(Reader *reader, FrSource *source) {
     g_ptr_array_add(reader->text->sources, fr_source_ref(source));
     Line line = {.bytes = g_string_new(NULL),
                  .origins = g_array_new(FALSE, FALSE, sizeof(uint32_t)),
-                 .file = reader->text->sources->len - 1};
+                 .file = reader->text->sources->len - 1,
+                 .comment = SIZE_MAX};
     GArray *branches = g_array_new(FALSE, FALSE, sizeof(Branch));
     read_lines(reader, &line, branches, source);
-    if (branches->len > 0) {
+    if (line.comment != SIZE_MAX) {
+        line.begin = line.comment;
+        line.end = line.begin + 2;
+        complain(reader, &line, "comment", "no '*/' ends the comment that begins here", "");
+        reader->text->is_cut = true;
+    } else if (branches->len > 0) {
         line.begin = g_array_index(branches, Branch, branches->len - 1).begin;
         line.end = line.begin + 3;
         complain(reader, &line, "directive", "there is no #endif for this #if", "");
@@ -310,7 +318,8 @@ FrLtext *fr_ltext_new(FrSource *source, const char *folder, const FrLname *names
                       g_array_new(FALSE, FALSE, sizeof(uint8_t)),
                       g_ptr_array_new_with_free_func((GDestroyNotify)fr_source_unref),
                       g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
-                      g_ptr_array_new_with_free_func(g_free)};
+                      g_ptr_array_new_with_free_func(g_free),
+                      false};
     Reader reader = {.text = text,
                      .context = context,
                      .folder = folder,
@@ -328,9 +337,9 @@ FrLtext *fr_ltext_new(FrSource *source, const char *folder, const FrLname *names
     }
     read_source(&reader, source);
     if (reader.macros.is_full) {
-        reader.status =
-            fr_limit_check(UINT64_MAX, context->limits.document_bytes, "document_bytes",
-                           "the macros of this file", (FrSpan){source, 0, 0}, context->diags);
+        reader.status = fr_limit_check(UINT64_MAX, context->limits.document_bytes, "document_bytes",
+                                       "replacing the macros of this file", (FrSpan){source, 0, 0},
+                                       context->diags);
     } else if (reader.macros.is_deep) {
         fr_diags_add(context->diags, FR_ERROR, "directive", (FrSpan){source, 0, 0},
                      "macros are nested too deeply");

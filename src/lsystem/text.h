@@ -11,6 +11,7 @@ typedef struct FrLtext {
     GPtrArray *sources; ///< FrSource *, owned references
     GHashTable *held;   ///< set of char *: names set from outside that a directive asked for
     GPtrArray *defined; ///< char *: names that directives have defined
+    bool is_cut;        ///< a comment that nothing ends has taken the rest
 } FrLtext;
 
 /// Names that are known from the start: the functions of a view stand for their number, what is

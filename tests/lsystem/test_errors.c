@@ -48,7 +48,19 @@ static const Kind kinds[] = {
     {HEAD "A(x) --> A(x)\ndecomposition\nmaximum depth: 1000000000\nA(x) --> A(x+1)\nendlsystem\n",
      1, FR_ERR_LIMIT, "limit-depth", 7, 1, "(step 1, module 1) asks for 4097"},
     {"Lsystem: 1\nderivation length: 3000000000\naxiom: A\nA --> A\nendlsystem\n", 0, FR_ERR_LIMIT,
-     "limit-steps", 2, 20, "3000000000"},
+     "limit-steps", 2, 20, "3000000000;"},
+    {"Lsystem: 1\nderivation length: 1.0e18\naxiom: A\nA --> A\nendlsystem\n", 0, FR_ERR_LIMIT,
+     "limit-steps", 2, 20, "is over 10^15;"},
+    {"Lsystem: 1\nderivation length: 2-5\naxiom: A\nA --> A\nendlsystem\n", 1, FR_OK,
+     "negative-length", 2, 21, "is negative; no step"},
+    {HEAD "A(x) : { SetDerivationLength(0-x); } 1 --> A(x)\nendlsystem\n", 1, FR_OK,
+     "negative-length", 4, 10, "(step 1, module 1)"},
+    {HEAD "A(x) --> A(x)\n  /* and\nendlsystem\n", 0, FR_ERR_DOCUMENT, "comment", 5, 3,
+     "begins here"},
+    {"w : A\n/* p1 : A -> B\n", 0, FR_ERR_DOCUMENT, "comment", 2, 1, "no '*/'"},
+    {"#if   1/0\n#endif\nw : A\n", 0, FR_ERR_DOCUMENT, "directive", 1, 1, "condition: 1/0"},
+    {"f(x) = f(x+1)\nw : A\np1 : A -> B(f(1))\n", 0, FR_ERR_DOCUMENT, "recursive-call", 1, 8,
+     "'f' cannot call itself"},
     {HEAD "A(x) --> A(exp(x*1000))\nendlsystem\n", 2, FR_OK, "no-number", 4, 12,
      "(step 1, module 1)"},
     {HEAD "A(x) --> A(x)?(5,1)F$\nendlsystem\n", 0, FR_OK, "unknown-call", 4, 1, "does nothing"},
@@ -148,6 +160,8 @@ static void check_error_count(const char *text, guint count) {
 static void once(void) {
     check_error_count("Lsystem 1\naxiom: A\nA --> A\nB --> B\nendlsystem\n", 1);
     check_error_count("axiom: A\nA --> A\nB --> B\nendlsystem\n", 1);
+    check_error_count("Lsystem: 1\naxiom: A\n/* A --> A\nendlsystem\n", 1);
+    check_error_count("Lsystem: 1\n/*axiom: A\nA --> A\nendlsystem\n", 1);
 }
 
 static void formals(void) {
