@@ -90,6 +90,24 @@ static void wrong_grafts(void) {
              31);
 }
 
+static void manual(void) {
+    char *path = g_build_filename(g_getenv("FROND_SOURCE"), "docs", "lsystems.md", NULL), *page;
+    g_assert_true(g_file_get_contents(path, &page, NULL, NULL));
+    const char *begin = strstr(page, "    <plant id=\"bush\"");
+    g_assert_nonnull(begin);
+    const char *end = strstr(begin, "</plant>");
+    g_assert_nonnull(end);
+    char *text =
+        g_strdup_printf("<frond version='1'>%.*s</plant></frond>", (int)(end - begin), begin);
+    Parsed parsed = parse(text);
+    g_assert_cmpint(parsed.status, ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(parsed.diags), ==, 0);
+    forget(&parsed);
+    g_free(text);
+    g_free(page);
+    g_free(path);
+}
+
 /// The string of the first plant after `steps` steps.
 static char *derived(const FrDocument *document, uint64_t steps) {
     FrContext context = fr_context_default();
@@ -209,6 +227,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/document/lsystem/all errors are told in one run", many_errors);
     g_test_add_func("/document/lsystem/a text with errors is not said to leave numbers unread",
                     numbers_of_wrong_texts);
+    g_test_add_func("/document/lsystem/the manual's L-system can be pasted into a document",
+                    manual);
     g_test_add_func("/document/lsystem/wrong definitions have a code and a place",
                     wrong_definitions);
     g_test_add_func("/document/lsystem/wrong numbers have a code and a place", wrong_numbers);
