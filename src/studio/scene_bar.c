@@ -1,6 +1,7 @@
 /// The palette of the scene's tools, and what can be set of the one that is chosen.
 #include "studio/model/adopt.h"
 #include "studio/scene_tool_private.h"
+#include "studio/wrap_box.h"
 
 #include <string.h>
 
@@ -129,12 +130,11 @@ static void on_option(GObject *object, GParamSpec *spec, StudioSceneTool *tool) 
 
 static GtkWidget *make_options(StudioSceneTool *tool) {
     static const char *const shapes[] = {"Box", "Ball", "Cylinder", "Cone", "Mesh file…", NULL};
-    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+    GtkWidget *box = studio_wrap_box_new(12);
     GtkWidget *groups[5];
     for (int i = 0; i < 5; i++) {
         groups[i] = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
-        gtk_widget_set_margin_end(groups[i], 14);
-        gtk_box_append(GTK_BOX(box), groups[i]);
+        studio_wrap_box_append(STUDIO_WRAP_BOX(box), groups[i]);
     }
     tool->what = labelled(groups[0], "_What", gtk_drop_down_new_from_strings(NULL),
                           "What is planted: of this document, or a preset");
@@ -227,7 +227,7 @@ static GtkWidget *make_palette(void) {
     gtk_box_append(GTK_BOX(box), ground);
     gtk_widget_add_css_class(box, "scene-palette");
     gtk_widget_set_halign(box, GTK_ALIGN_START);
-    gtk_widget_set_valign(box, GTK_ALIGN_CENTER);
+    gtk_widget_set_valign(box, GTK_ALIGN_START); // the options below it may be high
     return box;
 }
 

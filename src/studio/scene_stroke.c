@@ -53,7 +53,7 @@ static StudioBrush brush_of(const StudioSceneTool *tool) {
 
 static void paint(StudioSceneTool *tool, const double at[3]) {
     StudioBrush brush = brush_of(tool);
-    GArray *places = studio_brush_dab(&brush, tool->dabs++, at, tool->taken);
+    GArray *places = studio_brush_dab(&brush, tool->dabs, at, tool->taken);
     StudioSpot *spots = g_new0(StudioSpot, places->len + 1);
     for (guint i = 0; i < places->len; i++) {
         const double *place = &g_array_index(places, double, 2 * i);
@@ -102,6 +102,7 @@ static void dab(StudioSceneTool *tool, const double at[3]) {
     } else {
         take_out(tool, at);
     }
+    tool->dabs++;
 }
 
 // Dabs along the way from the last one: a pointer that is fast leaves no gaps.
@@ -110,6 +111,9 @@ static void dab_to(StudioSceneTool *tool, const double pixel[2]) {
     double apart = dab_part * brush_of(tool).radius;
     if (!studio_scene_ground(tool, pixel, to)) {
         return;
+    }
+    if (tool->dabs == 0) { // it began where no ground is
+        dab(tool, to);
     }
     const double *from = tool->dabbed;
     double way = hypot(to[0] - from[0], to[1] - from[1]);
@@ -219,6 +223,8 @@ void studio_scene_stroke_begin(StudioSceneTool *tool, const double pixel[2]) {
         double at[3];
         if (studio_scene_ground(tool, pixel, at)) {
             dab(tool, at);
+        } else {
+            studio_scene_say_no_ground(tool);
         }
     } else {
         g_clear_pointer(&tool->line, g_array_unref);

@@ -53,7 +53,16 @@ bool studio_scene_ground(const StudioSceneTool *tool, const double pixel[2], dou
     StudioGround *ground = studio_builder_ground(tool->window->builder);
     bool is_met = studio_ground_meet(ground, origin, direction, 200 * eye.camera.distance, at);
     studio_ground_unref(ground);
-    return is_met;
+    double min[3], max[3];
+    studio_viewport_bounds(tool->window->viewport, min, max);
+    const double *target = eye.camera.target;
+    return is_met && hypot(at[0] - target[0], at[1] - target[1]) <=
+                         studio_ground_reach(eye.camera.distance, min, max);
+}
+
+void studio_scene_say_no_ground(StudioSceneTool *tool) {
+    studio_window_say(tool->window,
+                      "There is no ground here, or too far away: look down, or go there");
 }
 
 static StudioHit hit_at(const StudioSceneTool *tool, const double pixel[2]) {
@@ -185,7 +194,7 @@ bool studio_scene_act(StudioSceneTool *tool, const double pixel[2]) {
         grab(tool, pixel);
     } else if (tool->tool == SCENE_PLANT || tool->tool == SCENE_OBSTACLE) {
         if (!studio_scene_ground(tool, pixel, at)) {
-            studio_window_say(tool->window, "There is no ground: look down a little");
+            studio_scene_say_no_ground(tool);
         } else if (tool->tool == SCENE_PLANT) {
             plant_at(tool, at);
         } else {

@@ -59,8 +59,10 @@ struct StudioSceneTool {
 const SceneToolKind *studio_scene_kind(SceneTool tool);
 void studio_scene_choose(StudioSceneTool *tool, SceneTool which);
 StudioEye studio_scene_eye(const StudioSceneTool *tool);
-/// Where the pointer meets the ground; false: nowhere.
+/// Where the pointer meets the ground; false: nowhere, or too far away for what is seen.
 bool studio_scene_ground(const StudioSceneTool *tool, const double pixel[2], double at[3]);
+/// Says that it does not.
+void studio_scene_say_no_ground(StudioSceneTool *tool);
 /// A coordinate, as exactly as the eye can tell.
 double studio_scene_rounded(const StudioSceneTool *tool, double value);
 /// The plant whose envelope is drawn, and the foot of its axis; FR_NONE.

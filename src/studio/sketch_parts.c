@@ -53,7 +53,6 @@ static GtkWidget *pane_of(const char *title, GtkWidget *first, GtkWidget *second
     GtkWidget *heading = gtk_label_new(title);
     gtk_widget_add_css_class(heading, "heading");
     gtk_label_set_xalign(GTK_LABEL(heading), 0);
-    gtk_label_set_ellipsize(GTK_LABEL(heading), PANGO_ELLIPSIZE_END);
     gtk_widget_set_hexpand(heading, TRUE);
     gtk_box_prepend(GTK_BOX(first), heading);
     gtk_widget_add_css_class(rows, "sketch-tools");
@@ -101,6 +100,35 @@ static void on_strokes_turned(StudioSketchView *view, StudioSketchPanel *panel) 
     studio_sketch_sheet_see(panel->sheet, studio_sketch_view_camera(view));
 }
 
+// The keys of this picture, which else would reach the one of the whole document.
+static gboolean on_whole_key(GtkEventControllerKey *controller, guint key, guint code,
+                             GdkModifierType state, StudioSketchPanel *panel) {
+    (void)controller;
+    (void)code;
+    StudioDisplay *display = studio_viewport_display(panel->viewport);
+    if ((state & (GDK_CONTROL_MASK | GDK_ALT_MASK)) != 0) {
+        return FALSE;
+    }
+    if (key == GDK_KEY_f) {
+        studio_viewport_frame_all(panel->viewport);
+    } else if (key >= GDK_KEY_1 && key <= GDK_KEY_3) {
+        display->mode = (StudioMode)(key - GDK_KEY_1);
+    } else if (key == GDK_KEY_w) {
+        display->has_wind = !display->has_wind;
+    } else {
+        return FALSE;
+    }
+    studio_viewport_update(panel->viewport);
+    return TRUE;
+}
+
+static void listen_to_keys(StudioSketchPanel *panel) {
+    GtkEventController *keys = gtk_event_controller_key_new();
+    gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+    g_signal_connect(keys, "key-pressed", G_CALLBACK(on_whole_key), panel);
+    gtk_widget_add_controller(GTK_WIDGET(panel->viewport), keys);
+}
+
 static GtkWidget *make_strokes(StudioSketchPanel *panel) {
     static const Button pages[] = {
         {"Strokes", "strokes", "One instance with the strokes that shape it"},
@@ -112,6 +140,7 @@ static GtkWidget *make_strokes(StudioSketchPanel *panel) {
     gtk_widget_set_name(GTK_WIDGET(panel->sheet), "sketch-sheet");
     panel->viewport = STUDIO_VIEWPORT(studio_viewport_new());
     gtk_widget_set_name(GTK_WIDGET(panel->viewport), "sketch-whole");
+    listen_to_keys(panel);
     g_signal_connect(panel->strokes, "turned", G_CALLBACK(on_strokes_turned), panel);
     g_signal_connect(panel->sheet, "chosen", G_CALLBACK(on_chosen), panel);
     g_signal_connect(panel->sheet, "opened", G_CALLBACK(on_opened), panel);
@@ -125,7 +154,7 @@ static GtkWidget *make_strokes(StudioSketchPanel *panel) {
     g_signal_connect(panel->instances, "value-changed", G_CALLBACK(on_count), panel);
     GtkWidget *first[] = {
         choice_of("win.sketch-page", pages, G_N_ELEMENTS(pages)),
-        toggle("Whole Plant", "win.sketch-whole", "With bark and leaves, as it will stand there")};
+        toggle("Whole", "win.sketch-whole", "With bark and leaves, as it will stand there")};
     GtkWidget *place = gtk_button_new_with_label("Stand in Scene");
     gtk_actionable_set_action_name(GTK_ACTIONABLE(place), "win.sketch-place");
     gtk_widget_set_tooltip_text(place, "Stand this instance, or all of the sheet, in the scene");

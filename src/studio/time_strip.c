@@ -5,7 +5,7 @@
 #include "studio/model/values.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 struct _StudioTimeStrip {
     GtkBox parent;
@@ -187,6 +187,25 @@ static void on_steps(GtkSpinButton *spin, StudioTimeStrip *strip) {
     }
 }
 
+static const char as_said[] = "as its text says";
+
+static gboolean on_steps_output(GtkSpinButton *spin, gpointer data) {
+    (void)data;
+    bool is_said = gtk_spin_button_get_value_as_int(spin) < 0;
+    if (is_said && strcmp(gtk_editable_get_text(GTK_EDITABLE(spin)), as_said) != 0) {
+        gtk_editable_set_text(GTK_EDITABLE(spin), as_said);
+    }
+    return is_said;
+}
+
+static int on_steps_input(GtkSpinButton *spin, double *value, gpointer data) {
+    (void)data;
+    const char *text = gtk_editable_get_text(GTK_EDITABLE(spin));
+    bool is_said = *text == '\0' || strcmp(text, as_said) == 0;
+    *value = -1;
+    return is_said; // numbers are read as ever
+}
+
 static void show_steps(StudioTimeStrip *strip, uint32_t element) {
     char *steps = fr_contents_get(studio_document_contents(strip->document), element, "steps");
     double value = -1;
@@ -206,6 +225,7 @@ void studio_time_strip_show(StudioTimeStrip *strip, StudioDocument *document, ui
     if (element != FR_NONE) {
         show_steps(strip, element);
     }
+    gtk_widget_set_visible(GTK_WIDGET(strip), plant != FR_NONE);
     bool is_species = plant != FR_NONE && fr_contents_child(contents, plant, "species") != FR_NONE;
     if (!is_species) {
         strip->is_growing = FALSE;
@@ -255,8 +275,15 @@ static GtkWidget *make_steps(StudioTimeStrip *strip) {
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
     GtkWidget *name = gtk_label_new("Steps of the L-system");
     strip->steps = gtk_spin_button_new_with_range(-1, 100000, 1);
-    gtk_widget_set_tooltip_text(strip->steps, "-1: as many as its text says");
+    gtk_widget_set_tooltip_text(strip->steps,
+                                "Below 0, or with nothing in it: as many as its text says");
+    gtk_spin_button_set_numeric(GTK_SPIN_BUTTON(strip->steps), FALSE); // words are shown, too
+    gtk_editable_set_width_chars(GTK_EDITABLE(strip->steps), (int)strlen(as_said));
     gtk_widget_set_name(strip->steps, "steps");
+    g_signal_connect(strip->steps, "input", G_CALLBACK(on_steps_input), NULL);
+    g_signal_connect(strip->steps, "output", G_CALLBACK(on_steps_output), NULL);
+    gtk_spin_button_set_value(GTK_SPIN_BUTTON(strip->steps), -1);
+    gtk_spin_button_update(GTK_SPIN_BUTTON(strip->steps));
     gtk_accessible_update_property(GTK_ACCESSIBLE(strip->steps), GTK_ACCESSIBLE_PROPERTY_LABEL,
                                    "Steps of the L-system", -1);
     g_signal_connect(strip->steps, "value-changed", G_CALLBACK(on_steps), strip);

@@ -14,7 +14,7 @@ G_DECLARE_FINAL_TYPE(StudioTimeStrip, studio_time_strip, STUDIO, TIME_STRIP, Gtk
 ///   "step" (gint64 step)     plants that grow bud by bud shall be at it
 
 GtkWidget *studio_time_strip_new(void);
-/// For the plant (FR_NONE: none) of a document, which the steps of an L-system change.
+/// For the plant of a document, which the steps of an L-system change; FR_NONE: none, and it hides.
 void studio_time_strip_show(StudioTimeStrip *strip, StudioDocument *document, uint32_t plant);
 /// The plants grow bud by bud, are at a step, and the document asks for so many.
 void studio_time_strip_show_growth(StudioTimeStrip *strip, uint64_t step, uint64_t count);

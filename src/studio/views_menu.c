@@ -12,22 +12,8 @@ static const char window_key[] = "studio-window", name_key[] = "studio-view";
 
 // ---- views -------------------------------------------------------------------------------------
 
-static uint32_t find_view(StudioWindow *window, const char *name) {
-    const FrContents *contents = studio_document_contents(window->document);
-    uint32_t view = studio_find_in_scene(window->document, "view");
-    for (; view != FR_NONE; view = fr_contents_sibling(contents, view)) {
-        char *own = fr_contents_get(contents, view, "name");
-        bool is_it = g_strcmp0(own, name) == 0;
-        g_free(own);
-        if (is_it) {
-            break;
-        }
-    }
-    return view;
-}
-
 static void go_to(StudioWindow *window, const char *name) {
-    uint32_t view = window->document == NULL ? FR_NONE : find_view(window, name);
+    uint32_t view = window->document == NULL ? FR_NONE : studio_find_view(window->document, name);
     if (view == FR_NONE || !studio_viewport_is_ready(window->viewport)) {
         studio_window_say(window, "There is no view called %s", name);
         return;
@@ -68,7 +54,8 @@ static void on_go(GtkWidget *button, gpointer data) {
 static void on_remove(GtkWidget *button, gpointer data) {
     (void)data;
     StudioWindow *window = window_of(button);
-    uint32_t view = find_view(window, g_object_get_data(G_OBJECT(button), name_key));
+    uint32_t view =
+        studio_find_view(window->document, g_object_get_data(G_OBJECT(button), name_key));
     if (view != FR_NONE) {
         studio_window_select(window, FR_NONE);
         studio_take_out(window->document, &view, 1, NULL);

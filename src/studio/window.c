@@ -51,6 +51,7 @@ static void follow_plant(StudioWindow *window) {
 
 static void update_panels(StudioWindow *window) {
     if (studio_document_contents(window->document) == NULL) {
+        studio_time_strip_show(window->strip, window->document, FR_NONE);
         return; // it was never well-formed: the text alone can be shown
     }
     follow_plant(window);

@@ -31,6 +31,10 @@ static void take(StudioWindow *window, const StudioBuilt *built) {
     if (built->view != NULL) {
         studio_viewport_take(window->viewport, built->view);
     }
+    if (built->is_forgotten) { // it must not be what the document that came is framed by
+        studio_viewport_forget(window->viewport);
+        return;
+    }
     window->shown = built->revision;
     g_clear_pointer(&window->diags, fr_diags_free);
     window->diags = fr_diags_new();
@@ -113,6 +117,7 @@ void studio_window_start_builder(StudioWindow *window) {
         window->builder = studio_builder_new(studio_window_wake, window);
         studio_light_mode_watch(window->light);
     }
+    studio_builder_forget(window->builder);
     window->asked = window->shown = 0;
 }
 

@@ -65,6 +65,28 @@ static void test_builds(Fixture *fixture, gconstpointer data) {
     studio_document_free(document);
 }
 
+static void test_forget(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    StudioDocument *first = open_example("examples/figure2.frond");
+    StudioDocument *second = open_example("examples/figure2.frond");
+    request(fixture, first, NAN);
+    double fraction, seconds = 0;
+    while (seconds == 0) { // until it has begun; done it waits to be collected
+        studio_builder_is_busy(fixture->builder, &fraction, &seconds);
+    }
+    studio_builder_forget(fixture->builder);
+    request(fixture, second, NAN);
+    const StudioBuilt *built = await(fixture);
+    g_assert_true(built->is_forgotten);
+    studio_builder_release(fixture->builder);
+    built = await(fixture);
+    g_assert_false(built->is_forgotten);
+    g_assert_nonnull(built->view);
+    studio_builder_release(fixture->builder);
+    studio_document_free(first);
+    studio_document_free(second);
+}
+
 static void test_leaves(Fixture *fixture, gconstpointer data) {
     (void)data;
     StudioDocument *document = open_example("examples/chestnut.frond");
@@ -278,6 +300,8 @@ static void test_pictures(Fixture *fixture, gconstpointer data) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
+    ADD("/studio/builder/what was asked for of a document that has gone is told apart",
+        test_forget);
     ADD("/studio/builder/a document becomes a view with counts", test_builds);
     ADD("/studio/builder/the first leaves of a batch are spread over all", test_leaves);
     ADD("/studio/builder/plants with surfaces are shown as surfaces", test_surfaces);

@@ -181,6 +181,13 @@ def test_arrange(run):
     studio.wait()
     assert "envelope=" in studio.text(run.home)
     run.picture("grove-arranged")
+    steps = studio.state()["steps"]
+    studio.ask("turn 0 -25 1")
+    studio.wait()
+    studio.pointer("key", "p")
+    studio.click(studio.point(0, 400, 0))  # just below the horizon
+    studio.wait()
+    assert studio.state()["steps"] == steps, "planted far away"
     studio.pointer("key", "Escape")
     while studio.state()["steps"] > 0:
         studio.ask("do undo")

@@ -294,6 +294,8 @@ static void test_view(void) {
     g_assert_true(studio_save_view(document, "a & b", &camera));
     camera.elevation = 0.7;
     g_assert_true(studio_save_view(document, "a & b", &camera)); // in the place of the other
+    g_assert_cmpuint(studio_find_view(document, "a & b"), !=, FR_NONE);
+    g_assert_cmpuint(studio_find_view(document, "a"), ==, FR_NONE);
     FrContext context = fr_context_default();
     FrDocument *read;
     g_assert_cmpint(fr_document_parse(studio_document_source(document), NULL, &context, &read), ==,
@@ -378,6 +380,13 @@ static void test_turn(void) {
     g_assert_cmpfloat_with_epsilon(now.at[1], 4, 1e-9);
 }
 
+static void test_reach(void) {
+    const double min[3] = {-3, 0, 0}, max[3] = {0, 4, 9}, none[3] = {1, 1, 1},
+                 less[3] = {-1, -1, -1};
+    g_assert_cmpfloat(studio_ground_reach(10, min, max), ==, 30);
+    g_assert_cmpfloat(studio_ground_reach(10, none, less), ==, 20);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func(
@@ -396,6 +405,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/scene/a drag makes an obstacle larger once", test_size);
     g_test_add_func("/studio/scene/the parts of a road keep together", test_road);
     g_test_add_func("/studio/scene/an envelope is drawn from either end", test_envelope);
+    g_test_add_func("/studio/scene/things are set down near what is seen", test_reach);
     g_test_add_func("/studio/scene/a view is kept under its name and seen again", test_view);
     g_test_add_func("/studio/scene/a point is seen where its ray goes", test_project);
     g_test_add_func("/studio/scene/arrows move along their axes", test_handles);

@@ -19,6 +19,7 @@ typedef struct Request {
     char *folder;
     uint64_t revision;
     StudioMoment moment;
+    uint64_t round; // as the builder's when it was asked
 } Request;
 
 struct StudioBuilder {
@@ -37,6 +38,7 @@ struct StudioBuilder {
     bool is_over;         // the thread shall end
     bool is_look_due;     // what stands shall be looked at
     bool is_looking;      // that is what runs
+    uint64_t round;       // how many documents have gone
     uint64_t collected;   // greatest revision collected so far
     gint fraction;        // atomic, in thousandths
     StudioGround *ground; // of the last build; NULL: level
@@ -259,6 +261,7 @@ static void serve(StudioBuilder *builder, Request *request, FrProgress *progress
     context.diags = fr_diags_new();
     StudioBuilt *built = g_new0(StudioBuilt, 1);
     built->revision = request->revision;
+    built->round = request->round;
     built->diags = context.diags;
     built->status = build(builder, request, &context, built);
     if (built->view != NULL) {
@@ -358,8 +361,9 @@ void studio_builder_free(StudioBuilder *builder) {
 void studio_builder_request(StudioBuilder *builder, FrSource *source, const char *folder,
                             uint64_t revision, StudioMoment moment) {
     Request *request = g_new(Request, 1);
-    *request = (Request){fr_source_ref(source), g_strdup(folder), revision, moment};
+    *request = (Request){fr_source_ref(source), g_strdup(folder), revision, moment, 0};
     g_mutex_lock(&builder->lock);
+    request->round = builder->round;
     request_free(builder->waiting);
     builder->waiting = request;
     if (builder->progress != NULL &&
@@ -367,6 +371,14 @@ void studio_builder_request(StudioBuilder *builder, FrSource *source, const char
         fr_progress_cancel(builder->progress);
     }
     g_cond_broadcast(&builder->changed);
+    g_mutex_unlock(&builder->lock);
+}
+
+void studio_builder_forget(StudioBuilder *builder) {
+    g_mutex_lock(&builder->lock);
+    builder->round++;
+    g_clear_pointer(&builder->waiting, request_free);
+    fr_progress_cancel(builder->progress);
     g_mutex_unlock(&builder->lock);
 }
 
@@ -415,6 +427,7 @@ const StudioBuilt *studio_builder_collect(StudioBuilder *builder) {
     builder->is_held = built != NULL;
     if (built != NULL) {
         builder->collected = MAX(builder->collected, built->revision);
+        built->is_forgotten = built->round != builder->round;
     }
     g_mutex_unlock(&builder->lock);
     return built;

@@ -34,6 +34,8 @@ typedef struct StudioBuilt {
     StudioTimes times;
     bool is_growing;           ///< its plants grow bud by bud, …
     uint64_t step, step_count; ///< … are at this step, of so many that the document asks for
+    uint64_t round;            ///< of the builder's own
+    bool is_forgotten;         ///< asked for before studio_builder_forget()
 } StudioBuilt;
 
 /// A material's picture of colours.
@@ -80,6 +82,9 @@ void studio_builder_look(StudioBuilder *builder);
 /// Asks for a document at a moment.
 void studio_builder_request(StudioBuilder *builder, FrSource *source, const char *folder,
                             uint64_t revision, StudioMoment moment);
+/// Another document comes: what waits is dropped and what runs is stopped. What was made already
+/// is still handed out, as forgotten, since the next view may tell only how it differs from it.
+void studio_builder_forget(StudioBuilder *builder);
 /// Stops what runs; its status will be FR_CANCELLED.
 void studio_builder_cancel(StudioBuilder *builder);
 /// Whether something runs or waits, and how far it is (0 to 1); `seconds` since it began.

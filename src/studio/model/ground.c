@@ -154,6 +154,11 @@ static void grow_box(const FrScene *scene, const FrStand *stand, double min[3], 
     }
 }
 
+double studio_ground_reach(double distance, const double min[3], const double max[3]) {
+    bool is_empty = max[0] < min[0];
+    return 2 * (distance + (is_empty ? 0 : hypot(max[0] - min[0], max[1] - min[1])));
+}
+
 bool studio_ground_bounds(const FrScene *scene, uint32_t origin, double min[3], double max[3]) {
     for (int k = 0; k < 3; k++) {
         min[k] = INFINITY;

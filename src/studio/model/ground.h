@@ -33,6 +33,10 @@ double studio_ground_height(const StudioGround *ground, double x, double y);
 /// `farthest`.
 bool studio_ground_meet(const StudioGround *ground, const double origin[3],
                         const double direction[3], double farthest, double at[3]);
+/// How far from what is looked at something may be set down: twice as far as it is looked at from
+/// and the box around the scene is wide (min > max: nothing stands). A pointer just below the
+/// horizon means no place that anyone would see.
+double studio_ground_reach(double distance, const double min[3], const double max[3]);
 /// What a ray meets first of a scene (NULL: an empty one) that was built from the same document.
 StudioHit studio_ground_hit(const StudioGround *ground, const FrScene *scene,
                             const double origin[3], const double direction[3], double spread);

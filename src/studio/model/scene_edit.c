@@ -1,5 +1,6 @@
 #include "studio/model/scene_edit.h"
 
+#include "studio/model/lamps.h"
 #include "studio/model/standing.h"
 #include "studio/model/values.h"
 
@@ -248,10 +249,9 @@ bool studio_set_envelope(StudioDocument *document, uint32_t plant, const GArray 
 
 // ---- views -------------------------------------------------------------------------------------
 
-static uint32_t find_view(const StudioDocument *document, const char *name) {
+uint32_t studio_find_view(const StudioDocument *document, const char *name) {
     const FrContents *contents = contents_of(document);
-    uint32_t scene = scene_of(document);
-    uint32_t view = scene == FR_NONE ? FR_NONE : fr_contents_child(contents, scene, "view");
+    uint32_t view = contents == NULL ? FR_NONE : studio_find_in_scene(document, "view");
     for (; view != FR_NONE; view = fr_contents_sibling(contents, view)) {
         char *own = fr_contents_get(contents, view, "name");
         bool is_it = g_strcmp0(own, name) == 0;
@@ -270,7 +270,7 @@ bool studio_save_view(StudioDocument *document, const char *name, const StudioCa
     char *angle = studio_value_text(camera->field_of_view * 180 / G_PI, 10);
     char *xml = g_markup_printf_escaped(
         "<view name=\"%s\" eye=\"%s\" target=\"%s\" field-of-view=\"%s\"/>", name, from, to, angle);
-    uint32_t old = contents_of(document) == NULL ? FR_NONE : find_view(document, name);
+    uint32_t old = studio_find_view(document, name);
     bool is_changed;
     if (old == FR_NONE) {
         is_changed = add_to_scene(document, "view", xml, "Save a view", NULL);

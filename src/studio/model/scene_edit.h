@@ -42,6 +42,8 @@ bool studio_set_terrain(StudioDocument *document, const char *file, const double
 /// The outline (radius, height: double[2]) that a species grows within; empty: none.
 bool studio_set_envelope(StudioDocument *document, uint32_t plant, const GArray *outline,
                          const char *key);
+/// The `<view>` of the scene with that name; FR_NONE.
+uint32_t studio_find_view(const StudioDocument *document, const char *name);
 /// Keeps where the camera is as a view of that name, in the place of one that is called so.
 bool studio_save_view(StudioDocument *document, const char *name, const StudioCamera *camera);
 
