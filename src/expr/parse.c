@@ -62,7 +62,7 @@ bool fr_parser_accept(FrParser *parser, FrToken token) {
 }
 
 static bool is_too_deep(FrParser *parser) {
-    if (parser->nesting < FR_EXPR_NESTING) {
+    if (parser->nesting <= FR_EXPR_NESTING) {
         return false;
     }
     fr_parser_report(parser, "expression-nesting", parser->lexer.begin, parser->lexer.end,
@@ -151,18 +151,27 @@ static uint32_t parse_primary(FrParser *parser) {
     }
 }
 
-// -x^2 is -(x^2), 2^-x is 2^(-x), 2^3^2 is 2^(3^2).
-static uint32_t parse_unary(FrParser *parser) {
+static uint32_t parse_unary(FrParser *parser);
+
+// What a sign or a power acts on. A parenthesis alone is a level already: here it is not counted.
+static uint32_t parse_operand(FrParser *parser) {
     if (is_too_deep(parser)) {
         return FR_NONE;
     }
     parser->nesting++;
+    uint32_t node = parse_unary(parser);
+    parser->nesting--;
+    return node;
+}
+
+// -x^2 is -(x^2), 2^-x is 2^(-x), 2^3^2 is 2^(3^2).
+static uint32_t parse_unary(FrParser *parser) {
     FrToken sign = parser->lexer.token;
     size_t begin = parser->lexer.begin;
     uint32_t node;
     if (sign == FR_TOKEN_MINUS || sign == FR_TOKEN_NOT) {
         fr_parser_next(parser);
-        uint32_t child = parse_unary(parser);
+        uint32_t child = parse_operand(parser);
         node = FR_NONE;
         if (child != FR_NONE) {
             size_t end = fr_tree_node(parser->tree, child)->end;
@@ -171,14 +180,13 @@ static uint32_t parse_unary(FrParser *parser) {
             fr_parser_adopt(parser, node, child);
         }
     } else if (fr_parser_accept(parser, FR_TOKEN_PLUS)) {
-        node = parse_unary(parser);
+        node = parse_operand(parser);
     } else {
         node = parse_primary(parser);
         if (fr_parser_accept(parser, FR_TOKEN_POWER)) {
-            node = fr_parser_operation(parser, FR_OP_POWER, node, parse_unary(parser));
+            node = fr_parser_operation(parser, FR_OP_POWER, node, parse_operand(parser));
         }
     }
-    parser->nesting--;
     return node;
 }
 

@@ -42,6 +42,26 @@ static void test_nesting(void) {
     refuse(repeat("(", 1000000), "expression-size");
 }
 
+// The manual promises 200 levels, of parentheses as of signs.
+static void test_deepest(void) {
+    static const struct {
+        const char *opens, *closes;
+    } cases[] = {{"(", ")"}, {"-", ""}, {"abs(", ")"}};
+    for (size_t k = 0; k < G_N_ELEMENTS(cases); k++) {
+        char *opens = repeat(cases[k].opens, 200);
+        char *closes = repeat(cases[k].closes, 200);
+        char *text = g_strdup_printf("%s1%s", opens, closes);
+        FrExpr *expr = fr_expr_compile(text, (FrSpan){0}, NULL, NULL);
+        g_assert_nonnull(expr);
+        fr_expr_unref(expr);
+        refuse(g_strdup_printf("%s%s%s", cases[k].opens, text, cases[k].closes),
+               "expression-nesting");
+        g_free(text);
+        g_free(closes);
+        g_free(opens);
+    }
+}
+
 static void test_long(void) {
     char *digits = repeat("1", 60000);
     refuse(digits, "number-too-large");
@@ -148,6 +168,7 @@ static void test_bytes(void) {
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/expr/hostile/deep nesting is refused", test_nesting);
+    g_test_add_func("/expr/hostile/200 levels are allowed and not one more", test_deepest);
     g_test_add_func("/expr/hostile/long texts are refused or read in time", test_long);
     g_test_add_func("/expr/hostile/functions cannot grow without bound", test_exponential);
     g_test_add_func("/expr/hostile/long chains of functions are refused", test_chain);
