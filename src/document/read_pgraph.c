@@ -2,6 +2,8 @@
 #include "document/reader.h"
 
 #include "material/mesh_file.h"
+#include "pgraph/params.h"
+#include "skin/section.h"
 
 #include <string.h>
 
@@ -105,6 +107,46 @@ static char *why_unread(const void *params, const FrParam *row, const void *kind
     return fr_pgraph_why_unread(*(const FrComponentKind *)kind, params, row);
 }
 
+/// What the cross-section of a stem or simple component is, if it is read.
+static bool find_section(FrComponentKind kind, const void *params, FrProfile *section) {
+    const FrStemParams *stem = params;
+    const FrSimpleParams *simple = params;
+    bool is_stem = kind == FR_COMPONENT_HORN || kind == FR_COMPONENT_TREE;
+    if (!is_stem && kind != FR_COMPONENT_SIMPLE) {
+        return false;
+    }
+    const FrPoints *points = is_stem ? &stem->section : &simple->section;
+    int primitive = (int)(is_stem ? stem->primitive : simple->primitive);
+    *section = (FrProfile){points->at, (uint32_t)points->count, primitive == FR_PRIMITIVE_TUBE};
+    return points->count > 0 && primitive <= FR_PRIMITIVE_AREA;
+}
+
+static void check_section(FrReader *reader, uint32_t node, FrComponentKind kind,
+                          const void *params) {
+    FrProfile section;
+    FrSectionFault fault = reader->diags != NULL && find_section(kind, params, &section)
+                               ? fr_section_fault(&section)
+                               : FR_SECTION_SOUND;
+    if (fault == FR_SECTION_SOUND) {
+        return;
+    }
+    FrSpan span = fr_xml_span(reader->tree, fr_read_value_place(reader, node, "section"));
+    if (fault == FR_SECTION_FEW) {
+        fr_diags_add(reader->diags, FR_WARNING, "bad-section", span,
+                     "this section is not used: it needs %d points that differ, no farther from "
+                     "the middle than %d",
+                     section.is_closed ? 3 : 2, FR_SECTION_FARTHEST);
+    } else if (fault == FR_SECTION_FAR) {
+        fr_diags_add(reader->diags, FR_WARNING, "bad-section", span,
+                     "points of this section that are farther from the middle than %d are left out",
+                     FR_SECTION_FARTHEST);
+    } else {
+        fr_diags_add(reader->diags, FR_WARNING, "bad-section", span,
+                     "this section crosses, touches or runs back over itself, so what is made of "
+                     "it is no sound solid; CAD programs refuse it");
+    }
+}
+
 static void read_component(GraphReader *graph, uint32_t node, FrElementId element) {
     FrReader *reader = graph->reader;
     fr_read_check_children(reader, node, element);
@@ -128,6 +170,7 @@ static void read_component(GraphReader *graph, uint32_t node, FrElementId elemen
     if (reader->status == FR_OK) {
         FrComponentKind kind = (FrComponentKind)(element - FR_ELEMENT_COMPONENT);
         fr_read_check_effects(reader, node, element, params, why_unread, &kind);
+        check_section(reader, node, kind, params);
     }
     fr_read_note(reader, before);
     add_materials(graph, node, fr_element(element).table, params);

@@ -1,5 +1,7 @@
 #include "io/meshes.h"
 
+#include "plant/place.h"
+
 #include <math.h>
 
 const FrPlant *fr_io_plant(const FrScene *scene, uint32_t plant) {
@@ -59,9 +61,10 @@ FrStatus fr_io_meshes_make(FrIoMeshes *meshes, const FrScene *scene, const FrSki
                                &meshes->meshes[p]);
         if (status == FR_OK) {
             count_mesh(&meshes->count, meshes->meshes[p], stands);
-            status = fr_limit_check(
-                expands ? meshes->count.triangles_everywhere : meshes->count.triangles,
-                context->limits.triangles, "triangles", plant->name, (FrSpan){0}, context->diags);
+            status = fr_limit_check(expands ? meshes->count.triangles_everywhere
+                                            : meshes->count.triangles,
+                                    context->limits.triangles, "triangles", plant->name,
+                                    fr_plant_place(plant), context->diags);
         }
     }
     if (status != FR_OK) {

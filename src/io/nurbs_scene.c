@@ -1,5 +1,7 @@
 #include "io/nurbs_scene.h"
 
+#include "plant/place.h"
+
 #include <string.h>
 
 // Before the materials: wood and leaves that have none.
@@ -35,7 +37,7 @@ FrStatus fr_io_nurbs_make(FrIoNurbs *nurbs, const FrScene *scene, const FrNurbsP
                 fr_count_add(nurbs->points, fr_count_multiply(skin->point_count, stands));
             status =
                 fr_limit_check(fr_count_multiply(nurbs->points, point_bytes), context->limits.bytes,
-                               "bytes", plant->name, (FrSpan){0}, context->diags);
+                               "bytes", plant->name, fr_plant_place(plant), context->diags);
         }
     }
     fr_io_stands_clear(&standing);

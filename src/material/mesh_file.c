@@ -223,10 +223,13 @@ static bool is_vertex_sound(const char *line, const char *end) {
     return true;
 }
 
-static bool check_numbers(const char *path, const char *name, FrSpan span, FrDiags *diags) {
+/// True if a file is no .obj, or one whose numbers are right and that has what can be read.
+static bool check_obj(const char *path, const char *name, FrSpan span, FrDiags *diags) {
     gchar *text;
     gsize size;
-    if (!g_str_has_suffix(name, ".obj") || !g_file_get_contents(path, &text, &size, NULL)) {
+    const char *dot = strrchr(name, '.');
+    if (dot == NULL || g_ascii_strcasecmp(dot, ".obj") != 0 ||
+        !g_file_get_contents(path, &text, &size, NULL)) {
         return true; // reading it will tell
     }
     bool is_sound = true;
@@ -242,6 +245,11 @@ static bool check_numbers(const char *path, const char *name, FrSpan span, FrDia
             is_sound = false;
         }
         line = stop + fr_line_end(stop, (size_t)(end - stop));
+    }
+    if (is_sound && !fr_obj_has_faces(text, size) && !fr_obj_has_surfaces(text, size)) {
+        fr_diags_add(diags, FR_ERROR, "empty-mesh", span,
+                     "'%s' has no faces ('f') and no surfaces ('surf')", name);
+        is_sound = false;
     }
     g_free(text);
     return is_sound;
@@ -266,7 +274,7 @@ FrMeshFile *fr_mesh_file_load(const char *folder, const char *name, FrSpan span,
     } else {
         *status = fr_limit_check((uint64_t)stat_of.st_size, context->limits.document_bytes,
                                  "document-bytes", name, span, context->diags);
-        if (*status == FR_OK && !check_numbers(path, name, span, context->diags)) {
+        if (*status == FR_OK && !check_obj(path, name, span, context->diags)) {
             *status = FR_ERR_DOCUMENT;
         }
         bool has_surfaces = *status == FR_OK && fr_nurbs_file_is(path);

@@ -20,6 +20,8 @@ size_t fr_line_end(const char *text, size_t size);
 
 /// True if a text of Wavefront OBJ has free-form surfaces.
 bool fr_obj_has_surfaces(const char *text, size_t size);
+/// True if it has polygons.
+bool fr_obj_has_faces(const char *text, size_t size);
 /// Reads the surfaces of a text, z up, in metres.
 void fr_obj_surfaces(FrSurfaceReader *reader, const char *text, size_t size);
 void fr_iges_surfaces(FrSurfaceReader *reader, const char *text, size_t size);

@@ -56,14 +56,22 @@ static size_t take_line(const char **text, size_t *size, const char **line) {
     return length;
 }
 
-bool fr_obj_has_surfaces(const char *text, size_t size) {
+static bool has_statement(const char *text, size_t size, const char *word) {
     const char *line;
     bool is_found = false;
     while (size > 0 && !is_found) {
         size_t length = take_line(&text, &size, &line), blanks = count_blanks(line, length);
-        is_found = is_word(line + blanks, length - blanks, "surf");
+        is_found = is_word(line + blanks, length - blanks, word);
     }
     return is_found;
+}
+
+bool fr_obj_has_surfaces(const char *text, size_t size) {
+    return has_statement(text, size, "surf");
+}
+
+bool fr_obj_has_faces(const char *text, size_t size) {
+    return has_statement(text, size, "f");
 }
 
 /// Leaves three numbers to a vertex: weights are for surfaces.

@@ -78,7 +78,8 @@
       "tube area box sphere cone cylinder torus square circle triangle none mesh",                 \
       "a closed tube, an open area, or a string of objects")                                       \
     X(INTEGER, detail, "12", 3, 128, "", "", "segments around an object of a string")              \
-    X(TEXT, file, "", 0, 0, "", "", "file of triangles for primitive=mesh, as wide as the stem")   \
+    X(TEXT, file, "", 0, 0, "", "",                                                                \
+      "file of triangles or surfaces for primitive=mesh, as wide as the stem")                     \
     X(CHOICE, tip, "pointed", 0, 0, "", "pointed flat round broken open", "end of the stem")       \
     X(NUMBER, break_chance, "0", 0, 1, "", "", "probability that it is broken off")                \
     X(NUMBER, break_at, "0.6", 0.01, 1, "", "", "where along the stem it then ends")               \
@@ -256,7 +257,8 @@
       "a solid, or one cross-section of a tube or area joined with the next")                      \
     X(VECTOR, size, "0.1, 0.1, 0.1", 0, 10000, "m", "", "extent along x, y, z")                    \
     X(INTEGER, detail, "12", 3, 128, "", "", "segments around")                                    \
-    X(TEXT, file, "", 0, 0, "", "", "file of triangles for primitive=mesh, in its own size")       \
+    X(TEXT, file, "", 0, 0, "", "",                                                                \
+      "file of triangles or surfaces for primitive=mesh, in its own size")                         \
     X(POINTS, section, "", 0, 0, "", "", "cross-section of radius 1; empty: a circle")
 
 typedef struct FrBasicParams {

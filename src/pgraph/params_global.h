@@ -64,7 +64,7 @@
     X(VECTOR, place, "0, 0, 0", -10000, 10000, "m", "", "where it is, seen from where it stands")  \
     X(VECTOR, size, "1, 1, 1", 0, 10000, "m", "",                                                  \
       "extent of a box or cylinder, which stands on its place along its z axis")                   \
-    X(TEXT, file, "", 0, 0, "", "", "file of triangles for kind=mesh")                             \
+    X(TEXT, file, "", 0, 0, "", "", "file of triangles or surfaces for kind=mesh")                 \
     X(SWITCH, inverted, "no", 0, 1, "", "", "its inside is free, all else is what it is")          \
     X(NUMBER, radius, "0", 0, 10000, "m", "", "distance that stems come to and keep")              \
     X(REAL, reach, "0.2", 0.00001, 10000, "m", "", "over what distance they come to it")           \

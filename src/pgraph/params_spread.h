@@ -69,7 +69,7 @@
 /// From child_scale on, evaluated for each child.
 #define FR_SCATTER_PARAMS(X)                                                                       \
     X(CHOICE, surface, "disc", 0, 0, "", "disc square ring mesh", "what is strewn with children")  \
-    X(TEXT, file, "", 0, 0, "", "", "file of triangles for surface=mesh")                          \
+    X(TEXT, file, "", 0, 0, "", "", "file of triangles or surfaces for surface=mesh")              \
     X(TEXT, density_file, "", 0, 0, "", "", "picture on them; many children where it is light")    \
     X(REAL, slope_from, "0", 0, 180, "deg", "", "triangles less steep than this bear none")        \
     X(REAL, slope_to, "180", 0, 180, "deg", "", "triangles steeper than this bear none")           \

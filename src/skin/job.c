@@ -3,6 +3,7 @@
 
 #include "skin/mesh.h"
 
+#include "plant/place.h"
 #include "plant/shapes.h"
 
 enum { RUN_GRAIN = 16 };
@@ -129,13 +130,14 @@ static const FrComponent *largest_of(const FrPlant *plant) {
 // A slip of a digit is found here, before there is a mesh.
 static FrStatus check_triangles(const FrPlan *plan, uint64_t triangles, const char *who) {
     const FrContext *context = plan->context;
+    FrSpan place = fr_plant_place(plan->plant);
     if (triangles > context->limits.plant_triangles) {
         const FrComponent *largest = largest_of(plan->plant);
         return fr_limit_check(triangles, context->limits.plant_triangles, "plant_triangles",
                               largest != NULL ? largest->id : who,
-                              largest != NULL ? largest->span : (FrSpan){0}, context->diags);
+                              largest != NULL ? largest->span : place, context->diags);
     }
-    return fr_limit_check(triangles, context->limits.triangles, "triangles", who, (FrSpan){0},
+    return fr_limit_check(triangles, context->limits.triangles, "triangles", who, place,
                           context->diags);
 }
 
@@ -147,8 +149,8 @@ FrStatus fr_job_check(const FrSkinJob *job, uint64_t vertices, uint64_t indices)
                                   fr_count_multiply(indices, sizeof(uint32_t)));
     FrStatus status = check_triangles(plan, indices / 3, who);
     return status != FR_OK ? status
-                           : fr_limit_check(bytes, context->limits.bytes, "bytes", who, (FrSpan){0},
-                                            context->diags);
+                           : fr_limit_check(bytes, context->limits.bytes, "bytes", who,
+                                            fr_plant_place(plan->plant), context->diags);
 }
 
 static FrStatus check_limits(const FrSkinJob *job) {
@@ -165,8 +167,8 @@ static FrStatus check_limits(const FrSkinJob *job) {
     const char *who = plan->plant->name != NULL ? plan->plant->name : "plant";
     FrStatus status = fr_job_check(job, vertices, indices);
     if (status == FR_OK) {
-        status = fr_limit_check(largest, UINT32_MAX, "vertices of one material", who, (FrSpan){0},
-                                context->diags);
+        status = fr_limit_check(largest, UINT32_MAX, "vertices of one material", who,
+                                fr_plant_place(plan->plant), context->diags);
     }
     return status;
 }

@@ -36,6 +36,9 @@ static inline guint fr_key_hash(gconstpointer key) {
     return (guint)(bits >> 32);
 }
 
+/// True if a text has been said already; nurbs_left_out.c.
+bool fr_nurbs_is_told(const FrDiags *diags, const char *text);
+
 // ---- nurbs_section.c: what is swept ------------------------------------------------------------
 
 /// A cross-section that may turn into another along the branch: both have the same knots.

@@ -35,7 +35,7 @@ static unsigned left_out_of(const FrNurbsJob *job, const FrTube *tube) {
     return left;
 }
 
-static bool is_told(const FrDiags *diags, const char *text) {
+bool fr_nurbs_is_told(const FrDiags *diags, const char *text) {
     bool is_found = false;
     for (size_t i = 0; i < fr_diags_count(diags) && !is_found; i++) {
         is_found = strcmp(fr_diags_get(diags, i)->text, text) == 0;
@@ -72,7 +72,7 @@ void fr_nurbs_tell_left_out(const FrNurbsJob *job) {
     }
     char *told =
         g_strdup_printf("'%s': its surfaces are without %s", job->plan.plant->name, text->str);
-    if (!is_told(diags, told)) {
+    if (!fr_nurbs_is_told(diags, told)) {
         fr_diags_add(diags, FR_WARNING, "left-out", place, "%s", told);
     }
     g_string_free(text, TRUE);

@@ -6,9 +6,13 @@
 
 #include "skin/solid.h"
 
+#include "plant/place.h"
+
 #include <string.h>
 
 enum { SHELL_GRAIN = 64 };
+/// Part of a plant's size that coordinates, floats, keep everywhere in it.
+#define FINEST 1e-6
 
 // ---- shells ------------------------------------------------------------------------------------
 
@@ -158,6 +162,7 @@ static FrStatus check_limits(const FrNurbsMeshing *meshing, const FrMeshPart *pa
         indices = fr_count_add(indices, parts[slot].index_count);
         largest = MAX(largest, parts[slot].vertex_count);
     }
+    FrSpan place = fr_plant_place(meshing->plant);
     const char *who = meshing->plant->name != NULL ? meshing->plant->name : "plant";
     uint64_t bytes = fr_count_add(fr_count_multiply(vertices, sizeof(FrVertex)),
                                   fr_count_multiply(indices, sizeof(uint32_t)));
@@ -169,7 +174,7 @@ static FrStatus check_limits(const FrNurbsMeshing *meshing, const FrMeshPart *pa
                   {largest, UINT32_MAX, "vertices of one material"}};
     FrStatus status = FR_OK;
     for (size_t i = 0; i < G_N_ELEMENTS(checks) && status == FR_OK; i++) {
-        status = fr_limit_check(checks[i].count, checks[i].limit, checks[i].what, who, (FrSpan){0},
+        status = fr_limit_check(checks[i].count, checks[i].limit, checks[i].what, who, place,
                                 context->diags);
     }
     return status;
@@ -300,6 +305,26 @@ static double size_of(const FrNurbsSkin *skin) {
     return size > 0.0 ? size : 1.0;
 }
 
+/// The tolerance that is asked for, if coordinates can keep it.
+static double tolerance_of(const FrNurbsMeshing *meshing, FrSpan span, FrDiags *diags) {
+    double size = size_of(meshing->skin), wanted = meshing->params->tolerance;
+    if (wanted >= FINEST * size) {
+        return wanted;
+    }
+    if (!(wanted > 0.0)) {
+        return size / 2000.0;
+    }
+    const char *name = meshing->plant->name != NULL ? meshing->plant->name : "plant";
+    char *text = g_strdup_printf("the tolerance %g of '%s' is finer than coordinates keep; it "
+                                 "is taken for 1/1000000 of the plant's size",
+                                 wanted, name);
+    if (!fr_nurbs_is_told(diags, text)) {
+        fr_diags_add(diags, FR_WARNING, "fine-tolerance", span, "%s", text);
+    }
+    g_free(text);
+    return FINEST * size;
+}
+
 static FrStatus mesh_skin(FrNurbsMeshing *meshing, const FrContext *context) {
     uint64_t count = meshing->skin->count, steps = 0;
     for (uint64_t i = 0; i < count; i++) {
@@ -337,7 +362,7 @@ FrStatus fr_nurbs_mesh(const FrPlant *plant, const FrNurbsParams *params, int lo
     if (status != FR_OK) {
         return status;
     }
-    double tolerance = params->tolerance > 0.0 ? params->tolerance : size_of(meshing.skin) / 2000.0;
+    double tolerance = tolerance_of(&meshing, span, context->diags);
     meshing.fineness = (FrNurbsFineness){tolerance * pow(2.0, lod), params->turn * pow(1.4, lod)};
     meshing.part_of = g_new(uint32_t, 2 * (size_t)meshing.slots);
     meshing.grids = g_new0(FrNurbsGrid, (size_t)workers);

@@ -1,6 +1,8 @@
 // Organs of a rational skin: copies of the surfaces of their shapes.
 #include "skin/nurbs_job.h"
 
+#include "plant/place.h"
+
 #include <string.h>
 
 enum { ORGAN_GRAIN = 256, SHAPE_GRAIN = 4 };
@@ -43,7 +45,7 @@ FrStatus fr_nurbs_make_shapes(FrNurbsJob *job) {
             fr_count_add(bytes, is_used ? fr_nurbs_shape_bytes_most(plant, shape, job->params) : 0);
     }
     FrStatus status = fr_limit_check(bytes, job->context->limits.bytes, "bytes", "shapes of organs",
-                                     (FrSpan){0}, job->context->diags);
+                                     fr_plant_place(plant), job->context->diags);
     if (status == FR_OK) {
         fr_parallel_for(job->context->pool, plant->shapes->len, SHAPE_GRAIN, make_shapes, job,
                         job->context->progress);

@@ -1,6 +1,7 @@
 // Plant → rational surfaces: plan, count, allocate once, write in parallel.
 #include "frond/nurbs_skin.h"
 
+#include "plant/place.h"
 #include "skin/nurbs_job.h"
 
 #include <string.h>
@@ -34,8 +35,8 @@ static FrStatus allocate(FrNurbsJob *job, const char *name) {
     bytes = fr_count_add(bytes, fr_count_multiply(job->points, 4 * sizeof(double)));
     bytes = fr_count_add(bytes, fr_count_multiply(job->textures, 2 * sizeof(double)));
     bytes = fr_count_add(bytes, fr_count_multiply(job->knots, sizeof(double)));
-    FrStatus status =
-        fr_limit_check(bytes, context->limits.bytes, "bytes", name, (FrSpan){0}, context->diags);
+    FrStatus status = fr_limit_check(bytes, context->limits.bytes, "bytes", name,
+                                     fr_plant_place(job->plan.plant), context->diags);
     if (status != FR_OK) {
         return status;
     }

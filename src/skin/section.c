@@ -88,13 +88,16 @@ void fr_section_round(FrSection *section, uint32_t sides) {
     }
 }
 
-// Finite points without repetitions.
-static uint32_t distinct_points(const FrProfile *profile, double (*out)[2]) {
+bool fr_section_is_near(const double point[2]) {
+    return fabs(point[0]) < FR_SECTION_FARTHEST && fabs(point[1]) < FR_SECTION_FARTHEST;
+}
+
+uint32_t fr_section_points(const FrProfile *profile, double (*out)[2]) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < profile->count; i++) {
         double x = profile->points[i][0], y = profile->points[i][1];
-        bool is_fine = isfinite(x) && isfinite(y) && fabs(x) < 1e6 && fabs(y) < 1e6;
-        if (is_fine && (count == 0 || hypot(x - out[count - 1][0], y - out[count - 1][1]) > 1e-6)) {
+        if (fr_section_is_near(profile->points[i]) &&
+            (count == 0 || hypot(x - out[count - 1][0], y - out[count - 1][1]) > 1e-6)) {
             out[count][0] = x;
             out[count++][1] = y;
         }
@@ -202,7 +205,7 @@ static void set_reach(FrSection *section) {
 bool fr_section_profile(FrSection *section, const FrProfile *profile) {
     *section = (FrSection){0};
     double(*points)[2] = g_malloc_n(MAX(profile->count, 1), sizeof *points);
-    uint32_t count = distinct_points(profile, points);
+    uint32_t count = fr_section_points(profile, points);
     if (count < (profile->is_closed ? 3U : 2U)) {
         g_free(points);
         return false;

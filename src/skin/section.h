@@ -10,7 +10,7 @@ typedef struct FrColumn {
     float u;                  ///< 0 to 1 around
 } FrColumn;
 
-enum { FR_REACH_COUNT = 64 };
+enum { FR_REACH_COUNT = 64, FR_SECTION_FARTHEST = 1000000 };
 
 /// Counter-clockwise seen from the tip. A closed section repeats its first column at its end with
 /// u = 1, so that a texture has a seam to wrap at.
@@ -27,6 +27,23 @@ typedef struct FrSection {
 void fr_section_round(FrSection *section, uint32_t sides);
 /// The polygon of a profile. False if too few distinct finite points are left of it.
 bool fr_section_profile(FrSection *section, const FrProfile *profile);
+/// True for a point that is not left out.
+bool fr_section_is_near(const double point[2]);
+/// Finite points of a profile without repetitions, written to `points`, which has room for all.
+/// Answers how many.
+uint32_t fr_section_points(const FrProfile *profile, double (*points)[2]);
+
+/// What a profile has that no sound surface comes of; the first that is found.
+typedef enum FrSectionFault {
+    FR_SECTION_SOUND,
+    FR_SECTION_FEW,     ///< too few distinct points: it is not used
+    FR_SECTION_FAR,     ///< points that are no numbers or too far away, which are left out
+    FR_SECTION_TOUCHES, ///< closed, but crosses, touches or runs back over itself
+} FrSectionFault;
+
+enum { FR_SECTION_LOOKED_MOST = 1000 };
+/// Of more than FR_SECTION_LOOKED_MOST points it is not looked whether they touch.
+FrSectionFault fr_section_fault(const FrProfile *profile);
 void fr_section_clear(FrSection *section);
 /// Distance of the margin from the centre towards (x, y), which need not be of length 1.
 float fr_section_reach(const FrSection *section, float x, float y);

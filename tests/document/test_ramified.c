@@ -54,9 +54,45 @@ static void spare_rows(void) {
     forget(&parsed);
 }
 
+/// A document of a horn with that section, and how many warnings it has; the first is at the
+/// section.
+static uint32_t warnings_of(const char *section, const char *more) {
+    char *text = g_strdup_printf("<frond version='1'>\n<plant id='a'><pgraph><camera id='c'/>"
+                                 "<horn id='h' section='%s'%s/><link from='c' to='h'/>"
+                                 "</pgraph></plant>\n</frond>\n",
+                                 section, more);
+    Parsed parsed = parse(text);
+    g_assert_cmpint(parsed.status, ==, FR_OK);
+    uint32_t count = (uint32_t)fr_diags_count(parsed.diags), line, column;
+    if (count > 0) {
+        const FrDiag *diag = fr_diags_get(parsed.diags, 0);
+        g_assert_cmpstr(diag->code, ==, "bad-section");
+        g_assert_cmpint(diag->severity, ==, FR_WARNING);
+        fr_source_position(diag->span.source, diag->span.begin, &line, &column);
+        g_assert_cmpuint(line, ==, 2);
+        g_assert_cmpuint(column, ==, 61);
+    }
+    forget(&parsed);
+    g_free(text);
+    return count;
+}
+
+static void sections(void) {
+    static const char *const bad[] = {"0,0 1,0 0,0 1,0 2,0", "1,0", "0,0 0,0 0,0",
+                                      "1e30,0 0,1e30 -1e30,0", "1e30,0 0,1 -1,0 0,-1"};
+    for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+        g_assert_cmpuint(warnings_of(bad[i], ""), ==, 1);
+    }
+    g_assert_cmpuint(warnings_of("1,0 0,1 -1,0 0,-1", ""), ==, 0);
+    g_assert_cmpuint(warnings_of("", ""), ==, 0);
+    g_assert_cmpuint(warnings_of("-1,0 1,0", " primitive='area'"), ==, 0);
+    g_assert_cmpuint(warnings_of("1,0", " primitive='area'"), ==, 1);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/document/ramified/errors are where they were written", places);
+    g_test_add_func("/document/ramified/sections that make no sound surface are told", sections);
     g_test_add_func("/document/ramified/rows that are not used are told", spare_rows);
     g_test_add_func("/document/ramified/settings reach the plant", settings);
     return g_test_run();

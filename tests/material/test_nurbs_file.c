@@ -133,6 +133,17 @@ static void obj_words(void) {
              -1, NULL));
 }
 
+/// What has nothing to read is told in the words of its format.
+static void obj_nothing(void) {
+    static const char *const texts[] = {
+        "", "# nothing\n", "v 0 0 0\nv 1 0 0\nl 1 2\n",
+        "v 0 0 0\nv 1 0 0\ncstype bspline\ndeg 1\ncurv 0 1 1 2\nparm u 0 0 1 1\nend\n"};
+    for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
+        load_told("q.obj", texts[i], -1, "empty-mesh", "'q.obj' has no faces*");
+        load_told("q.OBJ", texts[i], -1, "empty-mesh", "'q.OBJ' has no faces*");
+    }
+}
+
 /// Of a folder it is not said that it is not there.
 static void folder_is_no_file(void) {
     char *folder = g_dir_make_tmp("frond-XXXXXX", NULL),
@@ -345,6 +356,7 @@ static void mutated(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/material/nurbs_file/an .obj with nothing to read is told", obj_nothing);
     g_test_add_func("/material/nurbs_file/free-form OBJ is read exactly", obj);
     g_test_add_func("/material/nurbs_file/surfaces are cut to their range", obj_range);
     g_test_add_func("/material/nurbs_file/faces beside surfaces are kept", obj_faces);

@@ -261,6 +261,56 @@ static void limits(void) {
     fr_plant_free(plant);
 }
 
+/// What floats cannot keep is told once, with its place, and not tried.
+static void finest(void) {
+    FrPlant *plant = forked();
+    FrNurbsParams params = fr_nurbs_default();
+    FrSource *source = fr_source_new("a.frond", "<nurbs/>", 8);
+    const FrSpan span = {source, 1, 6};
+    uint64_t triangles[2];
+    for (int i = 0; i < 2; i++) {
+        params.tolerance = i == 0 ? 1e-9 : 1e-300;
+        FrContext context = fr_context_default();
+        context.diags = fr_diags_new();
+        for (int again = 0; again < 2; again++) {
+            FrMesh *mesh;
+            g_assert_cmpint(fr_nurbs_mesh(plant, &params, 0, FR_UP_Z, span, &context, &mesh), ==,
+                            FR_OK);
+            triangles[i] = mesh->index_count / 3;
+            fr_mesh_free(mesh);
+        }
+        g_assert_cmpuint(fr_diags_count(context.diags), ==, 1);
+        g_assert_cmpstr(fr_diags_get(context.diags, 0)->code, ==, "fine-tolerance");
+        g_assert_true(fr_diags_get(context.diags, 0)->span.source == source);
+        fr_diags_free(context.diags);
+    }
+    g_assert_cmpuint(triangles[0], ==, triangles[1]);
+    fr_source_unref(source);
+    fr_plant_free(plant);
+}
+
+/// A limit is told where the plant is written.
+static void limit_has_place(void) {
+    FrPlant *plant = forked();
+    FrSource *source = fr_source_new("a.frond", "<horn/>", 7);
+    fr_plant_add_component(plant, "stem", (FrSpan){source, 1, 5});
+    FrNurbsParams params = fr_nurbs_default();
+    for (int i = 0; i < 2; i++) {
+        FrContext context = fr_context_default();
+        context.diags = fr_diags_new();
+        *(i == 0 ? &context.limits.bytes : &context.limits.triangles) = 100;
+        FrMesh *mesh;
+        g_assert_cmpint(fr_nurbs_mesh(plant, &params, 0, FR_UP_Z, (FrSpan){0}, &context, &mesh), ==,
+                        FR_ERR_LIMIT);
+        g_assert_cmpuint(fr_diags_count(context.diags), ==, 1);
+        g_assert_true(fr_diags_get(context.diags, 0)->span.source == source);
+        g_assert_cmpuint(fr_diags_get(context.diags, 0)->span.begin, ==, 1);
+        fr_diags_free(context.diags);
+    }
+    fr_plant_free(plant);
+    fr_source_unref(source);
+}
+
 // ---- one solid ---------------------------------------------------------------------------------
 
 static FrPlant *boxes(float shift) {
@@ -366,6 +416,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/skin/nurbs_mesh/a leaf with a thickness is closed", whole_leaf);
     g_test_add_func("/skin/nurbs_mesh/any number of threads makes the same triangles", threads);
     g_test_add_func("/skin/nurbs_mesh/too many triangles are refused", limits);
+    g_test_add_func("/skin/nurbs_mesh/a limit is told where the plant is written", limit_has_place);
+    g_test_add_func("/skin/nurbs_mesh/a tolerance that floats cannot keep is told", finest);
     g_test_add_func("/skin/nurbs_mesh/overlapping surfaces become one watertight solid", one_solid);
     g_test_add_func("/skin/nurbs_mesh/open surfaces are no part of a solid, and that is told",
                     open_is_told);
