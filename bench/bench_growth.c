@@ -163,7 +163,7 @@ static void bench_close_forest(int threads) {
     FR_ASSERT(is_known);
     params->step = 0.02;
     params->favour = params->favour_old = 0.5;
-    params->vigour = 1.7;
+    params->vigour = 1.97;
     params->vigour_base = 1;
     params->branching_angle = G_PI / 4;
     params->collide = true;
