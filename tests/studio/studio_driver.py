@@ -81,6 +81,11 @@ class Studio:
     def state(self):
         return json.loads(self.ask("state"))
 
+    def undo_all(self):
+        """Goes back to the first state of the document."""
+        while self.state()["steps"] > 0:
+            self.ask("do undo")
+
     def where(self, name):
         return [float(number) for number in self.ask("where " + name).split()]
 

@@ -189,8 +189,7 @@ def test_arrange(run):
     studio.wait()
     assert studio.state()["steps"] == steps, "planted far away"
     studio.pointer("key", "Escape")
-    while studio.state()["steps"] > 0:
-        studio.ask("do undo")
+    studio.undo_all()
     studio.wait()
     assert studio.text(run.home) == GROVE
 
@@ -319,8 +318,7 @@ def test_lsystem(run):
     studio.wait()
     assert studio.state()["problems"] > 0
     run.picture("lsystem-mistake")
-    while studio.state()["steps"] > 0:
-        studio.ask("do undo")
+    studio.undo_all()
     studio.wait()
     assert studio.state()["digest"] == first["digest"]
     studio.ask(f"open {run.file}")
@@ -414,8 +412,7 @@ def test_sketch(run):
     studio.wait()
     state = studio.state()
     assert state["problems"] == 0 and state["triangles"] > first["triangles"], state
-    while studio.state()["steps"] > 0:
-        studio.ask("do undo")
+    studio.undo_all()
     studio.wait()
     assert studio.state()["digest"] == first["digest"]
     studio.ask(f"open {run.file}")
@@ -451,8 +448,7 @@ def test_device(run):
     studio.wait()
     assert studio.state()["steps"] == 2, studio.state()
     studio.ask("do sketch")
-    while studio.state()["steps"] > 0:
-        studio.ask("do undo")
+    studio.undo_all()
     studio.ask(f"open {run.file}")
     studio.wait()
 
@@ -477,8 +473,7 @@ def test_undo(run):
     """undoing all leads back to the first byte"""
     studio = run.studio
     last = studio.state()
-    while studio.state()["steps"] > 0:
-        studio.ask("do undo")
+    studio.undo_all()
     studio.wait()
     state = studio.state()
     assert state["digest"] == run.first and state["saved"], state
@@ -536,7 +531,8 @@ def test_killed(run):
     assert run.studio.quit() == 0
 
 
-TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_light, test_sketch, test_device, test_flower, test_link, test_slider, test_curve, test_view, test_hand,
+TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_light, test_sketch,
+         test_device, test_flower, test_link, test_slider, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
 

@@ -3,6 +3,7 @@
 #include "frond/document.h"
 #include "frond/scene.h"
 #include "studio/model/lamp_private.h"
+#include "studio/model/scene_edit.h"
 #include "studio/model/values.h"
 
 #include <math.h>
@@ -68,13 +69,9 @@ char *studio_lamp_title(const StudioDocument *document, uint32_t element) {
 // Inserts an element into the scene, which is made around it if there is none.
 static bool insert(StudioDocument *document, GArray *splices, const char *xml, const char *name) {
     const FrContents *contents = studio_document_contents(document);
-    uint32_t scene = fr_contents_child(contents, 0, "scene");
-    char *whole =
-        scene == FR_NONE ? g_strdup_printf("<scene>\n  %s\n</scene>", xml) : g_strdup(xml);
-    FrSplice splice = fr_contents_insert(contents, scene == FR_NONE ? 0 : scene, FR_NONE, whole);
+    FrSplice splice = studio_scene_insert(contents, FR_NONE, xml);
     g_array_append_val(splices, splice);
     bool is_done = studio_document_splice(document, splices, name, NULL);
-    g_free(whole);
     g_array_unref(splices);
     return is_done;
 }

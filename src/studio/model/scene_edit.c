@@ -50,12 +50,10 @@ char *studio_file_name(const StudioDocument *document, const char *path) {
     return name;
 }
 
-// Puts elements of a tag into the scene, which is made if there is none.
-static FrSplice into_scene(const StudioDocument *document, const char *tag, const char *xml) {
-    const FrContents *contents = contents_of(document);
-    uint32_t scene = scene_of(document);
+FrSplice studio_scene_insert(const FrContents *contents, uint32_t after, const char *xml) {
+    uint32_t scene = fr_contents_child(contents, 0, "scene");
     if (scene != FR_NONE) {
-        return fr_contents_insert(contents, scene, studio_scene_last(document, tag), xml);
+        return fr_contents_insert(contents, scene, after, xml);
     }
     char **lines = g_strsplit(xml, "\n", -1);
     char *inside = g_strjoinv("\n  ", lines);
@@ -65,6 +63,11 @@ static FrSplice into_scene(const StudioDocument *document, const char *tag, cons
     g_free(inside);
     g_strfreev(lines);
     return splice;
+}
+
+// Puts elements of a tag into the scene, behind those that it has.
+static FrSplice into_scene(const StudioDocument *document, const char *tag, const char *xml) {
+    return studio_scene_insert(contents_of(document), studio_scene_last(document, tag), xml);
 }
 
 static bool add_to_scene(StudioDocument *document, const char *tag, const char *xml,

@@ -17,6 +17,9 @@ typedef struct StudioSpot {
 
 /// The last child of the scene of that tag; FR_NONE. What has been added last stands there.
 uint32_t studio_scene_last(const StudioDocument *document, const char *tag);
+/// Text that puts elements into the scene, behind that child of it (FR_NONE: at its end); without a
+/// scene, one around them.
+FrSplice studio_scene_insert(const FrContents *contents, uint32_t after, const char *xml);
 /// Whether plants are placed; else the first plant is shown at the origin.
 bool studio_scene_has_places(const StudioDocument *document);
 /// Whether a plant (its element) grows bud by bud: it has no size and turn of its own.

@@ -1,6 +1,7 @@
 #include "studio/model/sketch_edit.h"
 
 #include "studio/model/commands.h"
+#include "studio/model/scene_edit.h"
 
 #include <math.h>
 #include <string.h>
@@ -201,22 +202,6 @@ static void append_place(GString *xml, const char *plant, gint64 seed, double x,
     g_string_append(xml, "/>");
 }
 
-// Puts elements into the scene of a document, which gets one if it has none.
-static FrSplice into_scene(const FrContents *contents, const char *xml) {
-    uint32_t scene = fr_contents_child(contents, 0, "scene");
-    if (scene != FR_NONE) {
-        return fr_contents_insert(contents, scene, FR_NONE, xml);
-    }
-    char **lines = g_strsplit(xml, "\n", -1);
-    char *inner = g_strjoinv("\n  ", lines);
-    char *whole = g_strdup_printf("<scene>\n  %s\n</scene>", inner);
-    FrSplice splice = fr_contents_insert(contents, 0, FR_NONE, whole);
-    g_free(whole);
-    g_free(inner);
-    g_strfreev(lines);
-    return splice;
-}
-
 // The greatest x of a place in the scene; false: nothing is placed there.
 static bool rightmost(const FrContents *contents, uint32_t scene, double *x) {
     bool is_any = false;
@@ -249,8 +234,9 @@ bool studio_sketch_place(StudioDocument *document, const StudioSketchOf *of, uin
     for (uint32_t i = 0; i < count; i++) {
         append_place(xml, of->varied, (gint64)(seed + i), x + step * (i + 1), 0);
     }
-    bool is_done = studio_document_splice_one(document, into_scene(contents, xml->str),
-                                              "Stand instances in the scene", NULL);
+    bool is_done =
+        studio_document_splice_one(document, studio_scene_insert(contents, FR_NONE, xml->str),
+                                   "Stand instances in the scene", NULL);
     g_string_free(xml, TRUE);
     return is_done;
 }
@@ -298,7 +284,7 @@ FrSource *studio_sketch_preview(const StudioDocument *document, const StudioSket
                          step * (0.5 * (rows - 1) - i / columns));
         }
         GArray *splices = g_array_new(FALSE, FALSE, sizeof(FrSplice));
-        FrSplice splice = into_scene(rest, xml->str);
+        FrSplice splice = studio_scene_insert(rest, FR_NONE, xml->str);
         g_array_append_val(splices, splice);
         source = spliced(rest, splices);
         g_string_free(xml, TRUE);
