@@ -21,6 +21,7 @@ static void show_amount(StudioWindow *window, const StudioTimes *times, bool is_
     char *time = is_edit ? g_strdup_printf("   %.0f ms", milliseconds) : g_strdup("");
     char *text = g_strdup_printf("%s   %s%s", leaves, triangles, time);
     gtk_label_set_text(GTK_LABEL(window->amount), text);
+    gtk_widget_set_visible(window->amount, TRUE);
     g_free(text);
     g_free(time);
     g_free(triangles);

@@ -285,6 +285,7 @@ static GtkWidget *make_middle(StudioWindow *window) {
     gtk_widget_set_halign(window->amount, GTK_ALIGN_END); // below the modes: beside is no room
     gtk_widget_set_valign(window->amount, GTK_ALIGN_START);
     gtk_widget_set_can_target(window->amount, FALSE);
+    gtk_widget_set_visible(window->amount, FALSE); // until there is something to count
     gtk_overlay_add_overlay(overlay, window->amount);
     gtk_overlay_add_overlay(overlay, make_modes(window));
     gtk_overlay_add_overlay(overlay, make_picked(window));
