@@ -1,5 +1,5 @@
-// Ground patterns from one tile of fractal noise, read at several scales that never repeat
-// together.
+// Ground patterns from one tile of fractal noise, read at several scales and at places that drift
+// over the ground, two of them blended, after I. Quilez, "Texture repetition" (2015).
 #include "render/ground.h"
 
 #include "frond/noise.h"
@@ -9,6 +9,8 @@
 #include <math.h>
 
 enum { GROUND_CELLS = 256, GROUND_OCTAVES = 6 };
+#define PATCH_TILES 1.7  // a layer keeps its place over so many of its tiles
+#define DRIFT_PLACES 5.0 // and changes among so many places to either side
 
 FrGround *fr_ground_new(vec3s colour, float variation) {
     FrGround *ground = g_new0(FrGround, 1);
@@ -16,17 +18,17 @@ FrGround *fr_ground_new(vec3s colour, float variation) {
     ground->variation = variation;
     ground->haze = INFINITY;
     ground->height = g_new(float, GROUND_CELLS *GROUND_CELLS);
-    FrKey key = fr_key_name("ground");
+    FrKey key = ground->key = fr_key_name("ground");
     for (int y = 0; y < GROUND_CELLS; y++) {
         for (int x = 0; x < GROUND_CELLS; x++) {
             double sum = 0.0;
-            double weight = 0.5;
+            double weight = 0.4;
             int period = 4;
             for (int octave = 0; octave < GROUND_OCTAVES; octave++) {
                 double scale = (double)period / GROUND_CELLS;
                 sum += weight * fr_noise2_tiled(fr_key_child(key, (uint64_t)octave), x * scale,
                                                 y * scale, period);
-                weight *= 0.62;
+                weight *= 0.75;
                 period *= 2;
             }
             ground->height[y * GROUND_CELLS + x] = (float)sum;
@@ -84,23 +86,46 @@ static float tile_at(const FrGround *ground, float x, float y, Layer layer, floa
     return (a * (1.0f - fx) + b * fx) * (1.0f - fy) + (c * (1.0f - fx) + d * fx) * fy;
 }
 
+/// The tile from two places of it, blended: the places change over the ground, so a layer never
+/// repeats itself. Gradient as tile_at.
+static float drifting(const FrGround *ground, float x, float y, Layer layer, float *slope_x,
+                      float *slope_y) {
+    double patch = PATCH_TILES * layer.size;
+    double drift = DRIFT_PLACES * fr_noise2(ground->key, ((double)x + ground->origin[0]) / patch,
+                                            ((double)y + ground->origin[1]) / patch);
+    double place = floor(drift);
+    float part = (float)(drift - place);
+    part = part * part * (3.0f - 2.0f * part);
+    float height = 0.0f;
+    *slope_x = *slope_y = 0.0f;
+    for (int i = 0; i < 2; i++) {
+        FrKey key = fr_key_child(ground->key, (uint64_t)((int64_t)place + i));
+        float shift_x = (float)(layer.size * fr_random(key, 0, 0));
+        float shift_y = (float)(layer.size * fr_random(key, 0, 1));
+        float along_x;
+        float along_y;
+        float weight = i == 0 ? 1.0f - part : part;
+        height += weight * tile_at(ground, x + shift_x, y + shift_y, layer, &along_x, &along_y);
+        *slope_x += weight * along_x;
+        *slope_y += weight * along_y;
+    }
+    return height;
+}
+
 vec3s fr_ground_colour(const FrGround *ground, float x, float y) {
     if (ground->variation <= 0.0f) {
         return ground->colour;
     }
     float sx;
     float sy;
-    float middle = tile_at(ground, x, y, middle_layer, &sx, &sy);
+    float grain = drifting(ground, x, y, grain_layer, &sx, &sy);
+    float fine = drifting(ground, x, y, fine_layer, &sx, &sy);
+    float middle = drifting(ground, x, y, middle_layer, &sx, &sy);
     float coarse = tile_at(ground, x, y, coarse_layer, &sx, &sy);
-    // The small layers are bent by the large ones, or their repeats would line up in the distance.
-    float bent_x = x + 2.0f * middle;
-    float bent_y = y + 9.0f * coarse;
-    float grain = tile_at(ground, bent_x, bent_y, grain_layer, &sx, &sy);
-    float fine = tile_at(ground, bent_x, bent_y, fine_layer, &sx, &sy);
-    float light = grain + 0.8f * fine + 0.5f * middle + 0.3f * coarse;
+    float light = 1.2f * grain + 0.7f * fine + 0.4f * middle + 0.3f * coarse;
     vec3s colour = glms_vec3_scale(ground->colour, expf(ground->variation * light));
     // Patches drift between dry, reddish and fresh, greenish ground.
-    float dry = ground->variation * (0.3f * fine + 0.8f * middle + 0.5f * coarse);
+    float dry = ground->variation * (0.4f * grain + 0.3f * fine + 0.7f * middle + 0.5f * coarse);
     colour.r *= 1.0f + 0.35f * dry;
     colour.g *= 1.0f - 0.1f * dry;
     colour.b *= 1.0f - 0.2f * dry;
@@ -116,9 +141,9 @@ vec3s fr_ground_normal(const FrGround *ground, float x, float y) {
     float fine_y;
     float coarse_x;
     float coarse_y;
-    tile_at(ground, x, y, grain_layer, &fine_x, &fine_y);
-    tile_at(ground, x, y, fine_layer, &coarse_x, &coarse_y);
-    float strength = 2.5f * ground->variation;
+    drifting(ground, x, y, grain_layer, &fine_x, &fine_y);
+    drifting(ground, x, y, fine_layer, &coarse_x, &coarse_y);
+    float strength = 4.0f * ground->variation;
     return glms_vec3_normalize(
         (vec3s){{-strength * (fine_x + coarse_x), -strength * (fine_y + coarse_y), 1.0f}});
 }

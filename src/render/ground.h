@@ -3,10 +3,12 @@
 /// render.
 #pragma once
 
+#include "frond/random.h"
 #include "frond/vector.h"
 
 typedef struct FrGround {
     vec3s colour;     ///< linear, the mean
+    FrKey key;        ///< of its noise
     float *height;    ///< a tile of noise in −1 … 1, GROUND_CELLS a side
     float variation;  ///< 0: the same colour and level everywhere
     float haze;       ///< m: distance at which it turns into the horizon; INFINITY: never
