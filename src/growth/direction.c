@@ -16,13 +16,26 @@ static vec3s gravity_pull(const FrGrowth *growth, const FrSpeciesParams *params,
     switch (order->bearing) {
     case FR_BEARING_LEVEL: // back to the horizontal, and twice as firmly as others rise
         return glms_vec3_scale(growth->up, -2 * fabsf(strength) * rise);
-    case FR_BEARING_BENT: { // less and less upright
-        float part = 1 - (float)axis->internodes / 5;
-        return glms_vec3_scale(growth->up, fabsf(strength) * (part < -1 ? -1 : part));
+    case FR_BEARING_BENT: { // level after five internodes, then down to a slope of 30 degrees
+        float wanted = fmaxf(1 - (float)axis->internodes / 5, -0.5f);
+        return glms_vec3_scale(growth->up, 2 * fabsf(strength) * (wanted - rise));
     }
     default:
         return glms_vec3_scale(growth->up, strength);
     }
+}
+
+/// Where light draws an axis that stands like this: one that lies level, or bows, seeks it
+/// sideways.
+static vec3s light_pull(const FrGrowth *growth, const FrSpeciesParams *params,
+                        const FrOrderParams *order, const FrGrownAxis *axis, vec3s brightest) {
+    bool is_flat = order->bearing == FR_BEARING_LEVEL ||
+                   (order->bearing == FR_BEARING_BENT && axis->internodes > 2);
+    if (is_flat) {
+        float rise = glms_vec3_dot(brightest, growth->up);
+        brightest = glms_vec3_sub(brightest, glms_vec3_scale(growth->up, rise));
+    }
+    return glms_vec3_scale(brightest, (float)params->phototropism);
 }
 
 /// A vector across `direction` by chance, up to `size` long along each of two axes.
@@ -93,7 +106,7 @@ vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, con
     } else if (params->turning == FR_TURN_PART) {
         sum = turned_part(growth, params, bud);
     } else {
-        sum = glms_vec3_add(sum, glms_vec3_scale(bud->brightest, (float)params->phototropism));
+        sum = glms_vec3_add(sum, light_pull(growth, params, order, axis, bud->brightest));
         sum = glms_vec3_add(sum, gravity_pull(growth, params, order, axis, bud->direction));
     }
     if (params->fate != FR_FATE_COLONIZE) {

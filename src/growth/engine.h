@@ -253,6 +253,12 @@ FrStatus fr_growth_light(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t cou
                          const FrContext *context);
 
 // ---- species.c --------------------------------------------------------------------------------
+/// What a model is times the attributes of a species: radius of tips, length and width of blades,
+/// leaves at a node, steps that they stay.
+typedef struct FrHabit {
+    double girth, blade_length, blade_width, leaves, leaf_life;
+} FrHabit;
+FrHabit fr_species_habit(int model);
 FrReadySpecies fr_species_make_ready(const FrSpecies *species);
 void fr_species_clear_ready(FrReadySpecies *ready);
 

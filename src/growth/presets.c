@@ -10,7 +10,7 @@ typedef struct Preset {
 
 static const Preset presets[] = {
     {"fir", "model=massart;shed=none;step=0.25;step-ratio=0.8;auxin-reach=1;gravitropism=0.2;"
-            "leaves=4;leaf-length=0.08;leaf-width=0.03;leaf-life=30"},
+            "leaves=6;leaf-length=0.1;leaf-width=0.03;leaf-life=30"},
     {"frangipani", "model=leeuwenberg;step=0.3;step-ratio=0.92;dormancy=0;gravitropism=0.1;"
                    "leaves=4;leaf-length=0.18;leaf-width=0.06;tip-radius=0.01"},
     {"maple", "model=rauh;step=0.2;step-ratio=0.9;auxin-reach=2;dormancy=0;phototropism=0.25;"
@@ -18,14 +18,14 @@ static const Preset presets[] = {
     {"oak", "model=open;laterals=1;step=0.25;step-ratio=0.93;apical-control=1.05;auxin-reach=2;"
             "branching-angle=60;phototropism=0.5;gravitropism=-0.02;leaves=3;leaf-life=4"},
     {"poplar", "model=attims;step=0.25;step-ratio=0.85;auxin-reach=4;phototropism=0.4;"
-               "gravitropism=0.1;leaves=2"},
+               "branching-angle=35;gravitropism=0.1;leaves=4;leaf-length=0.14;leaf-width=0.1"},
     // The constants of Beneš, Andrysco, Šťava 2009, section 4, as they are printed, with the rules
     // of its section 3: particles draw and kill the bud that comes near.
     {"published", "model=open;step=1;step-ratio=1;length-noise=0;taper=0;laterals=2;"
                   "branching-angle=45;dormancy=2;auxin-reach=3;phototropism=0.01;gravitropism=0.5;"
                   "wander=0;kill=2;influence=1;particle-rule=bud;particle-mean=nearest;"
                   "shed=light;shed-share=0.8;shed-light=0.2;shed-dead=0;trials=1;pipe-exponent=2;"
-                  "tip-radius=0.005;leaf-facing=horizontal"},
+                  "tip-radius=0.015;leaf-length=0.6;leaf-width=0.4;leaf-facing=horizontal"},
     // The constants of the program that the authors of Palubicki et al. 2009 gave away, for a world
     // in shadows with cells of an internode.
     {"self-organizing", "model=open;step=1;step-ratio=1;length-noise=0;wander=0;laterals=1;"

@@ -26,6 +26,17 @@ static void scale_order(const FrSpeciesParams *params, FrOrderParams *order) {
     order->angle = MIN(angle, 175 * G_PI / 180);
 }
 
+/// Palms and their like have few thick stems and few large leaves, which the attributes of the
+/// species, made for trees of many twigs, are times.
+static void scale_habit(FrSpeciesParams *params) {
+    FrHabit habit = fr_species_habit(params->model);
+    params->tip_radius *= habit.girth;
+    params->leaf_length *= habit.blade_length;
+    params->leaf_width *= habit.blade_width;
+    params->leaves = lround((double)params->leaves * habit.leaves);
+    params->leaf_life = MAX(lround((double)params->leaf_life * habit.leaf_life), 1);
+}
+
 /// Works out once what every bud needs.
 static void prepare(FrReadySpecies *ready) {
     const FrSpeciesParams *params = &ready->params;
@@ -62,6 +73,7 @@ FrReadySpecies fr_species_make_ready(const FrSpecies *species) {
             scale_order(params, &ready.orders[row]);
         }
     }
+    scale_habit(&ready.params);
     prepare(&ready);
     return ready;
 }

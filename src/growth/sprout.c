@@ -15,10 +15,22 @@ static uint32_t buds_in_light(const FrSpeciesParams *params, uint32_t tier, floa
     return (uint32_t)lround((double)tier * smooth);
 }
 
+/// What the buds of a bud's axis count their divergence from. Buds that stand in two rows shall
+/// make a level spray: on an axis that lies level, whatever bears it, and else across the plane of
+/// the two axes.
+static vec3s side_of(const FrGrowth *growth, const FrOrderParams *order, vec3s bearer,
+                     vec3s direction, vec3s out) {
+    vec3s level = glms_vec3_cross(growth->up, direction);
+    if (order->bearing == FR_BEARING_LEVEL && glms_vec3_norm(level) > 0.1f) {
+        return glms_vec3_normalize(level);
+    }
+    return glms_vec3_normalize(glms_vec3_cross(bearer, out));
+}
+
 /// Adds `count` buds around the tip of the apex' last internode.
-static void add_around(FrGrownPlant *plant, FrLiveBud apex, uint32_t node, uint32_t count,
-                       double divergence, const FrReadySpecies *species, uint8_t row,
-                       bool is_relay) {
+static void add_around(const FrGrowth *growth, FrGrownPlant *plant, FrLiveBud apex, uint32_t node,
+                       uint32_t count, double divergence, uint8_t row, bool is_relay) {
+    const FrReadySpecies *species = fr_species_of(growth, plant);
     const FrGrownAxis *axis = &plant->axes[apex.axis];
     // An apex' buds of one node are told apart by the node's place on its axis.
     FrKey key = fr_key_child(axis->key, axis->internodes);
@@ -35,9 +47,7 @@ static void add_around(FrGrownPlant *plant, FrLiveBud apex, uint32_t node, uint3
         bud->axis = apex.axis;
         bud->direction = glms_vec3_normalize(
             glms_vec3_add(glms_vec3_scale(apex.direction, cosine), glms_vec3_scale(out, sine)));
-        // Divergence counts from across the plane of the two axes, so that buds that stand in two
-        // rows make a level spray.
-        bud->side = glms_vec3_normalize(glms_vec3_cross(apex.direction, out));
+        bud->side = side_of(growth, &species->orders[built], apex.direction, bud->direction, out);
         bud->light = apex.light;
         bud->brightest = apex.brightest;
         bud->state = FR_LIVE_ASLEEP;
@@ -76,12 +86,12 @@ void fr_growth_sprout(const FrGrowth *growth, FrGrownPlant *plant, uint32_t inde
         uint32_t tier = n / (order->growth == FR_GROWTH_RHYTHMIC ? (uint32_t)order->unit : 1);
         uint32_t count = buds_in_light(&species->params, (uint32_t)order->tier, apex.light);
         uint8_t row = (uint8_t)MIN(apex.row + 1u, species->order_count - 1);
-        add_around(plant, apex, node, count, order->divergence * tier, species, row, false);
+        add_around(growth, plant, apex, node, count, order->divergence * tier, row, false);
     }
     if (has_ended) {
         plant->axes[apex.axis].is_growing = false;
         plant->buds[index].state = FR_LIVE_DONE;
-        add_around(plant, apex, node, (uint32_t)order->relays,
-                   order->divergence * (axis->order + 1), species, apex.row, true);
+        add_around(growth, plant, apex, node, (uint32_t)order->relays,
+                   order->divergence * (axis->order + 1), apex.row, true);
     }
 }

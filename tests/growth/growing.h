@@ -35,6 +35,22 @@ static inline void world_set(World *world, const char *name, const char *value) 
                     ==, FR_OK);
 }
 
+/// The same for a plant without chance in its directions and lengths, which drops nothing.
+static inline void world_init_plain(World *world) {
+    world_init(world);
+    world_set(world, "model", "open");
+    world_set(world, "wander", "0");
+    world_set(world, "length-noise", "0");
+    world_set(world, "shed", "none");
+}
+
+/// A flat obstacle of two triangles; `corners` is borrowed.
+static inline FrGrowthObstacle world_sheet(const vec3s corners[4]) {
+    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+    return (FrGrowthObstacle){
+        .positions = corners, .vertex_count = 4, .indices = indices, .index_count = 6};
+}
+
 static inline void world_sow(World *world, const FrSeed *seeds, uint32_t count) {
     g_assert_cmpint(fr_growth_new(&world->setup, &world->context, &world->growth), ==, FR_OK);
     g_assert_cmpint(fr_growth_add_seeds(world->growth, seeds, count, &world->context), ==, FR_OK);

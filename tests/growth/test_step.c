@@ -1,0 +1,58 @@
+/// A step is taken whole or not at all; setups are checked without one. E numbers are those of
+/// docs/paper-2.md.
+#include "growing.h"
+#include "growth/engine.h"
+
+/// Cancelled after light and particles have changed what buds know, and have killed.
+static void test_cancelled(void) {
+    World world;
+    world_init(&world);
+    world_set(&world, "particle-rule", "bud");
+    world_set(&world, "kill", "0.5");
+    world_sow_one(&world);
+    world_step(&world, 6);
+    FrGrowthStats before = fr_growth_stats(world.growth);
+    const FrLiveBud *bud = &world.growth->plants[0].buds[0];
+    FrParticle near = {.at = fr_bud_world(&world.growth->plants[0], bud), .w = 1, .kill = -1};
+    g_assert_cmpint(fr_growth_add_particles(world.growth, &near, 1, &world.context), ==, FR_OK);
+    world.growth->params.light = FR_GROWTH_FULL;
+    world.context.progress = fr_progress_new(NULL, NULL);
+    fr_progress_cancel(world.context.progress);
+    g_assert_cmpint(fr_growth_sense(world.growth, &world.context), ==, FR_CANCELLED);
+    FrGrowthStats after = fr_growth_stats(world.growth);
+    g_assert_cmpuint(after.digest, ==, before.digest);
+    g_assert_cmpuint(after.particles, ==, 1);
+    fr_progress_free(world.context.progress);
+    world.context.progress = NULL;
+    g_assert_cmpint(fr_growth_sense(world.growth, &world.context), ==, FR_OK);
+    after = fr_growth_stats(world.growth);
+    g_assert_cmpuint(after.digest, !=, before.digest);
+    world_clear(&world);
+}
+
+/// What is wrong with a setup is known without an arena of cells and particles.
+static void test_checked(void) {
+    World world;
+    world_init(&world);
+    world.context.limits.bytes = 1000;
+    world.setup.params.particles = 1000000;
+    const FrSeed seeds[2] = {{.id = 1}, {.at = {100, 0, 0}, .id = 2}};
+    g_assert_cmpint(fr_growth_check(&world.setup, seeds, 2, &world.context), ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(world.context.diags), ==, 1);
+    g_assert_cmpstr(fr_diags_get(world.context.diags, 0)->code, ==, "seed-place");
+    world.context.limits.plants = 1;
+    g_assert_cmpint(fr_growth_check(&world.setup, seeds, 2, &world.context), ==, FR_ERR_LIMIT);
+    world.context.limits.plants = 2;
+    world.setup.params.cell = 0.0001;
+    g_assert_cmpint(fr_growth_check(&world.setup, seeds, 2, &world.context), ==, FR_ERR_DOCUMENT);
+    world_clear(&world);
+}
+
+int main(int argc, char **argv) {
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func(
+        "/growth/step/a step that is cancelled before plants change leaves all as it was",
+        test_cancelled);
+    g_test_add_func("/growth/step/a setup is checked without making its world", test_checked);
+    return g_test_run();
+}
