@@ -55,6 +55,7 @@ typedef struct FrLstring FrLstring;
 typedef struct FrLmodule {
     char symbol;
     uint8_t count;           ///< of parameters
+    uint16_t mark;           ///< of what made it, for fr_lderivation_maker()
     const float *parameters; ///< `count` of them; NaN: open, not answered yet
 } FrLmodule;
 
@@ -65,6 +66,8 @@ FR_API uint64_t fr_lstring_bytes(const FrLstring *string);
 FR_API bool fr_lstring_next(const FrLstring *string, uint64_t *at, FrLmodule *module);
 /// Appends the string as text, parameters as %g, open ones as `?`.
 FR_API void fr_lstring_print(const FrLstring *string, GString *out);
+/// Appends one module as fr_lstring_print() does.
+FR_API void fr_lmodule_print(const FrLmodule *module, GString *out);
 /// Digest of symbols and parameters.
 FR_API FrDigest fr_lstring_digest(const FrLstring *string);
 
@@ -128,7 +131,7 @@ typedef struct FrLsettings {
     bool inherits;      ///< where those are NULL there is none: that of what bears the plant
     const char *sites;  ///< symbols that place something: organs without a shape, scaled by the
                         ///< first parameter, whose component is called like the symbol; NULL: none
-    bool keeps_origins; ///< fr_lderivation_origin() will be asked; 8 bytes an internode
+    bool keeps_origins; ///< fr_lderivation_origin() will be asked; 8 bytes an internode or organ
 } FrLsettings;
 
 FR_API FrLsettings fr_lsettings_default(void);
@@ -190,7 +193,7 @@ FR_API FR_MUST_USE FrStatus fr_lderivation_plant(FrLderivation *derivation,
 FR_API FR_MUST_USE FrStatus fr_lderivation_draw(FrLderivation *derivation, const FrContext *context,
                                                 FrPlant **plant, FrLdrawn *drawn);
 
-/// Where an internode comes from.
+/// Where an internode or an organ comes from.
 typedef struct FrLorigin {
     uint64_t module;        ///< index in the string of what drew it, itself or by homomorphism
     const char *production; ///< in whose successor the symbol stood, borrowed; NULL: the axiom
@@ -200,6 +203,12 @@ typedef struct FrLorigin {
 /// Where a node of the plant drawn last comes from; false where that is not kept (FrLsettings).
 FR_API bool fr_lderivation_origin(const FrLderivation *derivation, uint32_t node,
                                   FrLorigin *origin);
+/// The same of an organ.
+FR_API bool fr_lderivation_organ_origin(const FrLderivation *derivation, uint32_t organ,
+                                        FrLorigin *origin);
+/// The production in whose successor a module of this mark stood, and its place; NULL: the axiom.
+FR_API const char *fr_lderivation_maker(const FrLderivation *derivation, uint16_t mark,
+                                        FrSpan *span);
 
 /// Reads a view file (.v) and what it names, relative to `folder`: functions, contours, surfaces.
 /// Commands that only concern pictures are read over; unknown ones are warnings.

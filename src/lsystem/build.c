@@ -53,7 +53,10 @@ FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *co
     builder->palette = settings->palette;
     builder->unit = settings->unit;
     builder->sites = settings->sites;
-    builder->origins = settings->keeps_origins ? g_array_new(FALSE, FALSE, sizeof(uint64_t)) : NULL;
+    if (settings->keeps_origins) {
+        builder->origins = g_array_new(FALSE, FALSE, sizeof(uint64_t));
+        builder->organ_origins = g_array_new(FALSE, FALSE, sizeof(uint64_t));
+    }
     for (const char *site = builder->sites; site != NULL && *site != '\0'; site++) {
         fr_plant_add_component(builder->plant, (char[]){*site, '\0'}, (FrSpan){0});
     }
@@ -66,6 +69,7 @@ void fr_lbuilder_free(FrLbuilder *builder) {
         g_free(builder->colours);
         g_free(builder->components);
         g_clear_pointer(&builder->origins, g_array_unref);
+        g_clear_pointer(&builder->organ_origins, g_array_unref);
         g_free(builder);
     }
 }
@@ -210,6 +214,10 @@ void fr_lbuilder_organ(FrLbuilder *builder, const FrLpose *pose, const double at
     organs->shape[organ] = shape;
     organs->material[organ] = material;
     organs->component[organ] = fr_lbuilder_component(builder, builder->maker);
+    if (builder->organ_origins != NULL) {
+        uint64_t origin = builder->module << 16 | builder->maker;
+        g_array_append_val(builder->organ_origins, origin);
+    }
     organs->path[organ] = fr_key_child(fr_key_root(1), organ);
 }
 

@@ -30,6 +30,7 @@ struct FrLbuilder {
     double unit;                ///< metres of one unit of the file
     const char *sites;          ///< symbols that place something, NULL
     GArray *origins;            ///< as FrLderivation.origins
+    GArray *organ_origins;      ///< as FrLderivation.organ_origins
 };
 
 FrLbuilder *fr_lbuilder_new(const FrLderivation *derivation, const FrContext *context);

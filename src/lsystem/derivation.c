@@ -183,17 +183,31 @@ const FrLproduction *fr_lderive_maker(const FrLderivation *derivation, uint32_t 
                : &g_array_index(productions, FrLproduction, mark - 1);
 }
 
-bool fr_lderivation_origin(const FrLderivation *derivation, uint32_t node, FrLorigin *origin) {
-    if (derivation->origins == NULL || node >= derivation->origins->len) {
+const char *fr_lderivation_maker(const FrLderivation *derivation, uint16_t mark, FrSpan *span) {
+    const FrLproduction *production = fr_lderive_maker(derivation, mark);
+    const FrLunit *unit = g_ptr_array_index(derivation->system->units, 0);
+    *span = production == NULL ? unit->axiom_span : production->span;
+    return production == NULL ? NULL : production->name;
+}
+
+static bool find_origin(const FrLderivation *derivation, const GArray *origins, uint32_t index,
+                        FrLorigin *origin) {
+    if (origins == NULL || index >= origins->len) {
         return false;
     }
-    uint64_t kept = g_array_index(derivation->origins, uint64_t, node);
-    const FrLproduction *production = fr_lderive_maker(derivation, kept & 0xFFFF);
-    const FrLunit *unit = g_ptr_array_index(derivation->system->units, 0);
-    *origin = (FrLorigin){.module = kept >> 16,
-                          .production = production == NULL ? NULL : production->name,
-                          .span = production == NULL ? unit->axiom_span : production->span};
+    uint64_t kept = g_array_index(origins, uint64_t, index);
+    origin->module = kept >> 16;
+    origin->production = fr_lderivation_maker(derivation, kept & 0xFFFF, &origin->span);
     return true;
+}
+
+bool fr_lderivation_origin(const FrLderivation *derivation, uint32_t node, FrLorigin *origin) {
+    return find_origin(derivation, derivation->origins, node, origin);
+}
+
+bool fr_lderivation_organ_origin(const FrLderivation *derivation, uint32_t organ,
+                                 FrLorigin *origin) {
+    return find_origin(derivation, derivation->organ_origins, organ, origin);
 }
 
 uint32_t fr_lderive_depth(FrLderivation *derivation, const FrLsection *section,
@@ -379,6 +393,7 @@ void fr_lderivation_free(FrLderivation *derivation) {
     g_ptr_array_unref(derivation->files);
     g_hash_table_unref(derivation->told);
     g_clear_pointer(&derivation->origins, g_array_unref);
+    g_clear_pointer(&derivation->organ_origins, g_array_unref);
     fr_lstring_free(derivation->string);
     fr_lstring_free(derivation->other);
     fr_lview_free(derivation->default_view);

@@ -39,11 +39,12 @@ struct FrLderivation {
     GArray *choices;  ///< uint16_t: production of each module + 1, in parallel steps
     int64_t length;
     uint64_t step;
-    bool is_parallel; ///< nothing that a step does depends on the order of modules
-    bool is_answered; ///< the open symbols of this string have been answered
-    GHashTable *told; ///< places of faults that were reported
-    GArray *origins;  ///< uint64_t: by node of the plant drawn last, 16 bits of mark below the
-                      ///< module's index; NULL: not kept
+    bool is_parallel;      ///< nothing that a step does depends on the order of modules
+    bool is_answered;      ///< the open symbols of this string have been answered
+    GHashTable *told;      ///< places of faults that were reported
+    GArray *origins;       ///< uint64_t: by node of the plant drawn last, 16 bits of mark below the
+                           ///< module's index; NULL: not kept
+    GArray *organ_origins; ///< the same by organ
 };
 
 FrLstring *fr_lstring_new(void);

@@ -367,6 +367,8 @@ FrStatus fr_lderivation_draw(FrLderivation *derivation, const FrContext *context
     if (status == FR_OK) {
         g_clear_pointer(&derivation->origins, g_array_unref);
         derivation->origins = g_steal_pointer(&builder->origins);
+        g_clear_pointer(&derivation->organ_origins, g_array_unref);
+        derivation->organ_origins = g_steal_pointer(&builder->organ_origins);
         *plant = fr_lbuilder_end(builder);
     }
     fr_lturtle_clear(&turtle);

@@ -44,28 +44,32 @@ bool fr_lstring_next(const FrLstring *string, uint64_t *at, FrLmodule *module) {
     }
     const uint32_t *head = string->words + *at;
     *module = (FrLmodule){(char)fr_lhead_symbol(*head), (uint8_t)fr_lhead_count(*head),
-                          (const float *)(const void *)(head + 1)};
+                          (uint16_t)fr_lhead_mark(*head), (const float *)(const void *)(head + 1)};
     *at += 1 + fr_lhead_count(*head);
     return true;
+}
+
+void fr_lmodule_print(const FrLmodule *module, GString *out) {
+    g_string_append_c(out, module->symbol);
+    for (unsigned i = 0; i < module->count; i++) {
+        uint32_t word;
+        char number[G_ASCII_DTOSTR_BUF_SIZE] = "?";
+        memcpy(&word, module->parameters + i, sizeof word);
+        if (word != FR_LOPEN) {
+            g_ascii_formatd(number, sizeof number, "%g", module->parameters[i]);
+        }
+        g_string_append_c(out, i == 0 ? '(' : ',');
+        g_string_append(out, number);
+    }
+    if (module->count > 0) {
+        g_string_append_c(out, ')');
+    }
 }
 
 void fr_lstring_print(const FrLstring *string, GString *out) {
     FrLmodule module;
     for (uint64_t at = 0; fr_lstring_next(string, &at, &module);) {
-        g_string_append_c(out, module.symbol);
-        for (unsigned i = 0; i < module.count; i++) {
-            uint32_t word;
-            char number[G_ASCII_DTOSTR_BUF_SIZE] = "?";
-            memcpy(&word, module.parameters + i, sizeof word);
-            if (word != FR_LOPEN) {
-                g_ascii_formatd(number, sizeof number, "%g", module.parameters[i]);
-            }
-            g_string_append_c(out, i == 0 ? '(' : ',');
-            g_string_append(out, number);
-        }
-        if (module.count > 0) {
-            g_string_append_c(out, ')');
-        }
+        fr_lmodule_print(&module, out);
     }
 }
 

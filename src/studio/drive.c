@@ -152,6 +152,14 @@ static void sketch(Drive *drive, char *const *words, const char *rest) {
     g_free(text);
 }
 
+static void pointed(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    char *text = studio_string_panel_state(drive->window->string);
+    answer("%s", text == NULL ? "nothing" : text);
+    g_free(text);
+}
+
 static gboolean on_wait(gpointer data) {
     Drive *drive = data;
     drive->settled = studio_window_is_idle(drive->window) ? drive->settled + 1 : 0;
@@ -308,6 +316,7 @@ static const struct {
     {"close-dialog", close_dialog, 1, false},
     {"state", state, 1, false},
     {"sketch", sketch, 1, false},
+    {"pointed", pointed, 1, false},
     {"keep", keep, 1, false},
     {"restore", restore, 1, false},
     {"quit", quit, 1, true},

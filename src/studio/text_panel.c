@@ -12,7 +12,7 @@ struct _StudioTextPanel {
     char *place;              // of the element whose text it is; NULL: the whole document's
     GtkSourceBuffer *buffer;
     GtkWidget *view;
-    GtkTextTag *error, *warning;
+    GtkTextTag *error, *warning, *pointed;
     gboolean is_showing, is_typing;
     guint seal; // timer that ends a step of typing
 };
@@ -118,7 +118,7 @@ static void place_of(StudioTextPanel *panel, const char *shown, uint32_t offset,
         (int)g_utf8_strlen(shown, (gssize)MIN((size_t)offset, strlen(shown))));
 }
 
-static void mark(StudioTextPanel *panel, const FrDiags *diags) {
+static void underline(StudioTextPanel *panel, const FrDiags *diags) {
     GtkTextIter begin, end;
     gtk_text_buffer_get_bounds(buffer_of(panel), &begin, &end);
     gtk_text_buffer_remove_tag(buffer_of(panel), panel->error, &begin, &end);
@@ -169,7 +169,24 @@ void studio_text_panel_show(StudioTextPanel *panel, StudioDocument *document, ui
         fill(panel, text);
     }
     g_free(text);
-    mark(panel, diags);
+    underline(panel, diags);
+}
+
+void studio_text_panel_mark(StudioTextPanel *panel, uint32_t begin, uint32_t end) {
+    GtkTextIter from, to;
+    gtk_text_buffer_get_bounds(buffer_of(panel), &from, &to);
+    gtk_text_buffer_remove_tag(buffer_of(panel), panel->pointed, &from, &to);
+    uint32_t first =
+        begin == FR_NONE || panel->document == NULL ? FR_NONE : shown_offset(panel, begin);
+    uint32_t last = first == FR_NONE ? FR_NONE : shown_offset(panel, end);
+    if (last != FR_NONE) {
+        char *shown = text_of(panel);
+        place_of(panel, shown, first, &from);
+        place_of(panel, shown, last, &to);
+        g_free(shown);
+        gtk_text_buffer_apply_tag(buffer_of(panel), panel->pointed, &from, &to);
+        gtk_text_view_scroll_to_iter(GTK_TEXT_VIEW(panel->view), &from, 0.1, FALSE, 0, 0);
+    }
 }
 
 void studio_text_panel_forget(StudioTextPanel *panel) {
@@ -230,6 +247,9 @@ static void studio_text_panel_init(StudioTextPanel *panel) {
     GdkRGBA amber = {0.9f, 0.65f, 0.1f, 1};
     panel->warning = gtk_text_buffer_create_tag(
         buffer_of(panel), NULL, "underline", PANGO_UNDERLINE_ERROR, "underline-rgba", &amber, NULL);
+    GdkRGBA blue = {0.21f, 0.52f, 0.89f, 0.4f};
+    panel->pointed =
+        gtk_text_buffer_create_tag(buffer_of(panel), NULL, "background-rgba", &blue, NULL);
     panel->view = gtk_source_view_new_with_buffer(panel->buffer);
     gtk_source_view_set_show_line_numbers(GTK_SOURCE_VIEW(panel->view), TRUE);
     gtk_source_view_set_tab_width(GTK_SOURCE_VIEW(panel->view), 2);

@@ -17,5 +17,7 @@ void studio_text_panel_show(StudioTextPanel *panel, StudioDocument *document, ui
                             const FrDiags *diags);
 /// The document goes: nothing more is said to it.
 void studio_text_panel_forget(StudioTextPanel *panel);
+/// Marks bytes of the document and scrolls to them, without the cursor; `begin` FR_NONE: none.
+void studio_text_panel_mark(StudioTextPanel *panel, uint32_t begin, uint32_t end);
 /// Puts the cursor at a byte.
 void studio_text_panel_go(StudioTextPanel *panel, uint32_t offset);

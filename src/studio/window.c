@@ -83,12 +83,13 @@ void studio_window_show_texts(StudioWindow *window) {
     uint32_t lsystem = plant == FR_NONE ? FR_NONE : fr_contents_child(contents, plant, "lsystem");
     bool has_graph = plant != FR_NONE && studio_graph_of(window->document, plant) != FR_NONE;
     GtkStack *side = GTK_STACK(window->side);
-    gtk_stack_page_set_visible(gtk_stack_get_page(side, GTK_WIDGET(window->lsystem)),
-                               lsystem != FR_NONE);
+    gtk_stack_page_set_visible(
+        gtk_stack_get_page(side, gtk_stack_get_child_by_name(side, "lsystem")), lsystem != FR_NONE);
     gtk_stack_page_set_visible(gtk_stack_get_page(side, GTK_WIDGET(window->graph)), has_graph);
     if (lsystem != FR_NONE) {
         studio_text_panel_show(window->lsystem, window->document, lsystem, window->diags);
     }
+    studio_string_panel_update(window->string);
 }
 
 static void update_title(StudioWindow *window) {
@@ -304,6 +305,7 @@ static void studio_window_dispose(GObject *object) {
     while (g_idle_remove_by_data(window)) {
     }
     g_clear_pointer(&window->light, studio_light_mode_free);
+    g_clear_pointer(&window->string, studio_string_panel_free);
     drop_document(window);
     g_clear_pointer(&window->selected, g_free);
     g_clear_pointer(&window->plant, g_free);

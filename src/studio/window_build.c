@@ -47,6 +47,7 @@ static void take(StudioWindow *window, const StudioBuilt *built) {
         window->times = built->times;
         show_amount(window, &built->times, studio_document_steps(window->document) > 0);
         studio_graph_panel_set_counts(window->graph, built->counts);
+        studio_string_panel_match(window->string);
     }
     if (built->status == FR_CANCELLED) {
         studio_window_say(window, "Stopped: the picture is that of before");
@@ -150,8 +151,8 @@ bool studio_window_is_idle(StudioWindow *window) {
         return studio_sketch_panel_is_idle(window->sketch);
     }
     return window->document == NULL ||
-           (window->shown == window->asked && window->exports == 0 &&
-            !studio_builder_is_busy(window->builder, &fraction, &seconds) &&
+           (window->shown == window->asked && studio_string_panel_is_idle(window->string) &&
+            window->exports == 0 && !studio_builder_is_busy(window->builder, &fraction, &seconds) &&
             !studio_builder_is_painting(window->builder) &&
             g_atomic_int_get(&window->is_woken) == 0 && studio_viewport_is_done(window->viewport));
 }

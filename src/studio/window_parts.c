@@ -139,6 +139,26 @@ static GtkWidget *make_add(void) {
     return button;
 }
 
+static void on_side(GtkStack *stack, GParamSpec *spec, StudioWindow *window) {
+    (void)stack;
+    (void)spec;
+    studio_string_panel_update(window->string);
+}
+
+// The text above, the string below.
+static GtkWidget *make_lsystem(StudioWindow *window) {
+    window->string = studio_string_panel_new(window);
+    GtkWidget *paned = gtk_paned_new(GTK_ORIENTATION_VERTICAL);
+    gtk_widget_set_size_request(GTK_WIDGET(window->lsystem), -1, 120);
+    gtk_widget_set_size_request(studio_string_panel_widget(window->string), -1, 120);
+    gtk_paned_set_start_child(GTK_PANED(paned), GTK_WIDGET(window->lsystem));
+    gtk_paned_set_end_child(GTK_PANED(paned), studio_string_panel_widget(window->string));
+    gtk_paned_set_shrink_start_child(GTK_PANED(paned), FALSE);
+    gtk_paned_set_shrink_end_child(GTK_PANED(paned), FALSE);
+    gtk_paned_set_position(GTK_PANED(paned), 460);
+    return paned;
+}
+
 static GtkWidget *make_side(StudioWindow *window) {
     window->side = gtk_stack_new();
     window->graph = STUDIO_GRAPH_PANEL(studio_graph_panel_new());
@@ -150,12 +170,13 @@ static GtkWidget *make_side(StudioWindow *window) {
     window->text = STUDIO_TEXT_PANEL(studio_text_panel_new("xml"));
     GtkStack *stack = GTK_STACK(window->side);
     gtk_stack_add_titled(stack, GTK_WIDGET(window->graph), "graph", "Graph");
-    gtk_stack_add_titled(stack, GTK_WIDGET(window->lsystem), "lsystem", "L-system");
+    gtk_stack_add_titled(stack, make_lsystem(window), "lsystem", "L-system");
     gtk_stack_add_titled(stack, GTK_WIDGET(window->things), "things", "Contents");
     window->light = studio_light_mode_new(window);
     gtk_stack_add_titled(stack, studio_light_mode_panel(window->light), "light", "Light");
     gtk_stack_add_titled(stack, GTK_WIDGET(window->text), "text", "Text");
     gtk_widget_set_vexpand(window->side, TRUE);
+    g_signal_connect(stack, "notify::visible-child", G_CALLBACK(on_side), window);
     g_signal_connect(window->graph, "selected", G_CALLBACK(on_selected), window);
     g_signal_connect(window->things, "selected", G_CALLBACK(on_selected), window);
     GtkWidget *switcher = gtk_stack_switcher_new();

@@ -13,6 +13,7 @@
 #include "studio/picture.h"
 #include "studio/scene_tool.h"
 #include "studio/sketch_panel.h"
+#include "studio/string_panel.h"
 #include "studio/text_panel.h"
 #include "studio/things_panel.h"
 #include "studio/time_strip.h"
@@ -47,6 +48,7 @@ struct _StudioWindow {
     StudioGraphPanel *graph;
     StudioThingsPanel *things;
     StudioTextPanel *text, *lsystem;
+    StudioStringPanel *string;
     StudioInspector *inspector;
     StudioTimeStrip *strip;
     StudioLightMode *light;

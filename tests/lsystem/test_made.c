@@ -81,6 +81,29 @@ static void internodes(void) {
     end(&d);
 }
 
+// F [+F] and two balls, the second by homomorphism.
+static void organs(void) {
+    Derived d = begin("Lsystem: 1\naxiom: A\nA --> F@O(1)[+FB]\nhomomorphism\n"
+                      "B --> @O(2)\nendlsystem\n",
+                      1);
+    FrLsettings settings = fr_lsettings_default();
+    settings.keeps_origins = true;
+    fr_lderivation_free(d.derivation);
+    g_assert_cmpint(fr_lderivation_new(d.system, &settings, &d.context, &d.derivation), ==, FR_OK);
+    FrPlant *plant = drawn(&d, 1);
+    FrLorigin origin;
+    g_assert_cmpuint(plant->organs.count, ==, 2);
+    g_assert_true(fr_lderivation_organ_origin(d.derivation, 0, &origin));
+    g_assert_cmpuint(origin.module, ==, 2); // @ and O are two
+    g_assert_cmpstr(origin.production, ==, "A");
+    g_assert_true(fr_lderivation_organ_origin(d.derivation, 1, &origin));
+    g_assert_cmpuint(origin.module, ==, 6);
+    g_assert_cmpstr(origin.production, ==, "B");
+    g_assert_false(fr_lderivation_organ_origin(d.derivation, 2, &origin));
+    fr_plant_free(plant);
+    end(&d);
+}
+
 // What the turtle does not write is as in any plant.
 static void fresh(void) {
     Derived d = begin("w : F[+F]F\n", 1);
@@ -131,6 +154,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/lsystem/made/homomorphism makes what it replaces", replaced);
     g_test_add_func("/lsystem/made/productions of one predecessor are told apart", numbered);
     g_test_add_func("/lsystem/made/every internode knows its module and production", internodes);
+    g_test_add_func("/lsystem/made/every organ knows its module and production", organs);
     g_test_add_func("/lsystem/made/rows hold what those of other engines hold", fresh);
     g_test_add_func("/lsystem/made/threads make the same", parallel);
     return g_test_run();

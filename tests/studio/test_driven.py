@@ -303,17 +303,32 @@ def test_lsystem(run):
     studio.wait()
     first = studio.state()
     run.picture("lsystem")
+    x, y, _, _ = studio.where("string")
+    studio.go([x + 68, y + 14])  # behind F(0.02) a bracket opens
+    studio.wait()
+    assert studio.ask("pointed") == "[+(25)F(0.02)] by F(x)", studio.ask("pointed")
+    run.picture("lsystem-branch")
+    studio.go(studio.point(0, 0, 0.3))
+    studio.wait()
+    assert studio.ask("pointed") == "F(0.02) by F(x)", studio.ask("pointed")
+    run.picture("lsystem-pointed")
+    studio.go(studio.middle("A step less"))
+    studio.wait()
+    assert studio.ask("pointed") == "nothing"
+    studio.click(studio.middle("A step less"))
+    studio.wait()
+    fewer = studio.state()
+    assert fewer["triangles"] < first["triangles"] and fewer["steps"] == 1, fewer
     x, y, width, height = studio.where("steps")
     studio.click([x + width - 48, y + height / 2])  # one less
     studio.wait()
-    fewer = studio.state()
-    assert fewer["triangles"] < first["triangles"], fewer
+    assert studio.state()["triangles"] < fewer["triangles"], studio.state()
     studio.click(studio.middle("frond-lsystem", 0.5, 0.3))
     studio.pointer("key", "ctrl+Home")
     studio.pointer("type", "/* a */")
     studio.wait()
     typed = studio.state()
-    assert typed["digest"] != fewer["digest"] and typed["problems"] == 0, typed
+    assert typed["digest"] != first["digest"] and typed["problems"] == 0, typed
     studio.pointer("type", "oops(")
     studio.wait()
     assert studio.state()["problems"] > 0

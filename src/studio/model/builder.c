@@ -38,6 +38,7 @@ struct StudioBuilder {
     bool is_over;         // the thread shall end
     bool is_look_due;     // what stands shall be looked at
     bool is_looking;      // that is what runs
+    bool is_changing;     // a build runs and has not been handed over: nobody may read the scene
     uint64_t round;       // how many documents have gone
     uint64_t collected;   // greatest revision collected so far
     gint fraction;        // atomic, in thousandths
@@ -244,6 +245,7 @@ static FrStatus build(StudioBuilder *builder, const Request *request, const FrCo
 static void deliver(StudioBuilder *builder, StudioBuilt *built) {
     g_mutex_lock(&builder->lock);
     builder->built = built;
+    builder->is_changing = false;
     builder->wake(builder->user);
     while (builder->built != NULL && !builder->is_over) {
         g_cond_wait(&builder->changed, &builder->lock);
@@ -292,6 +294,7 @@ static gpointer run(gpointer data) {
         }
         Request *request = g_steal_pointer(&builder->waiting);
         builder->is_looking = request == NULL;
+        builder->is_changing = request != NULL;
         builder->is_look_due = request != NULL; // what it makes is looked at next
         FrProgress *progress = fr_progress_new(report, builder);
         builder->progress = progress;
@@ -454,20 +457,13 @@ bool studio_builder_is_painting(StudioBuilder *builder) {
 
 // What is shown, while nothing changes it; NULL. Under the lock.
 static const FrScene *shown_scene(const StudioBuilder *builder) {
-    return builder->progress == NULL || builder->is_looking ? builder->scene : NULL;
+    return builder->is_changing ? NULL : builder->scene;
 }
 
-bool studio_builder_pick(StudioBuilder *builder, const double origin[3], const double direction[3],
-                         double spread, StudioPicked *picked) {
+void studio_builder_use(StudioBuilder *builder, StudioUse use, void *user) {
     g_mutex_lock(&builder->lock); // nothing begins while it is held
-    const FrScene *scene = shown_scene(builder);
-    FrPick pick;
-    bool is_met = scene != NULL && fr_scene_pick(scene, origin, direction, spread, &pick);
-    if (is_met) {
-        *picked = studio_picked_of(scene, &pick);
-    }
+    use(user, shown_scene(builder));
     g_mutex_unlock(&builder->lock);
-    return is_met;
 }
 
 StudioHit studio_builder_hit(StudioBuilder *builder, const double origin[3],

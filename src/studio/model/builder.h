@@ -105,6 +105,11 @@ bool studio_builder_pick(StudioBuilder *builder, const double origin[3], const d
                          double spread, StudioPicked *picked);
 void studio_picked_clear(StudioPicked *picked);
 
+/// Reads a scene, NULL: the view is just being replaced.
+typedef void (*StudioUse)(void *user, const FrScene *scene);
+/// Lets someone read what is shown; nothing is built meanwhile.
+void studio_builder_use(StudioBuilder *builder, StudioUse use, void *user);
+
 // ---- the scene below the pointer; see ground.h --------------------------------------------------
 
 /// A plant that stands somewhere, of the last build.
