@@ -80,7 +80,7 @@ static void list_again(StudioSceneTool *tool) {
     g_free(before);
 }
 
-char *studio_scene_chosen_plant(StudioSceneTool *tool) {
+char *studio_scene_chosen_plant(StudioSceneTool *tool, const char *key) {
     const char *name = chosen(tool);
     if (name == NULL || !g_str_has_prefix(name, preset_mark)) {
         return g_strdup(name);
@@ -91,7 +91,7 @@ char *studio_scene_chosen_plant(StudioSceneTool *tool) {
         file == NULL
             ? NULL
             : fr_source_load(file, fr_context_default().limits.document_bytes, NULL, &status);
-    if (source != NULL && studio_adopt(tool->window->document, source, NULL, &id)) {
+    if (source != NULL && studio_adopt(tool->window->document, source, NULL, key, &id)) {
         list_again(tool);
         choose_plant(tool, id);
     }

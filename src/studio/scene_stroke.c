@@ -63,7 +63,7 @@ static void paint(StudioSceneTool *tool, const double at[3]) {
             0.85 + 0.3 * g_random_double(),
             1 + (int64_t)(individuals * g_random_double())};
     }
-    char *plant = studio_scene_chosen_plant(tool);
+    char *plant = studio_scene_chosen_plant(tool, tool->key);
     if (plant != NULL) {
         studio_plant(tool->window->document, plant, spots, places->len, tool->key);
     }

@@ -117,12 +117,15 @@ double studio_scene_rounded(const StudioSceneTool *tool, double value) {
 
 static bool plant_at(StudioSceneTool *tool, const double at[3]) {
     StudioDocument *document = tool->window->document;
-    char *plant = studio_scene_chosen_plant(tool);
+    static const char key[] = "plant"; // what a preset brings along is part of the same step
+    studio_document_seal(document);
+    char *plant = studio_scene_chosen_plant(tool, key);
     StudioSpot spot = {.at = {studio_scene_rounded(tool, at[0]), studio_scene_rounded(tool, at[1])},
                        .turn = floor(360 * g_random_double()),
                        .scale = 1,
                        .seed = -1};
-    bool is_planted = plant != NULL && studio_plant(document, plant, &spot, 1, NULL);
+    bool is_planted = plant != NULL && studio_plant(document, plant, &spot, 1, key);
+    studio_document_seal(document);
     if (is_planted) {
         studio_window_select(tool->window, studio_scene_last(document, "place"));
     } else {

@@ -97,8 +97,9 @@ void studio_scene_add_bars(StudioSceneTool *tool, GtkOverlay *overlay);
 void studio_scene_update_bars(StudioSceneTool *tool);
 /// What the tool, or the handle below the pointer, is for.
 void studio_scene_show_hint(StudioSceneTool *tool);
-/// The id of the plant to plant, taken over from its preset if need be. Free with g_free(); NULL.
-char *studio_scene_chosen_plant(StudioSceneTool *tool);
+/// The id of the plant to plant, taken over from its preset if need be, by a step of that key. Free
+/// with g_free(); NULL.
+char *studio_scene_chosen_plant(StudioSceneTool *tool, const char *key);
 
 // scene_files.c
 

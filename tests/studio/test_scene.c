@@ -109,7 +109,7 @@ static void test_adopt(void) {
                     "  <material id=\"bark\" colour=\"#ffffff\"/>\n" TREE "</frond>\n");
     FrSource *other = fr_source_new("other", OTHER, strlen(OTHER));
     char *id;
-    g_assert_true(studio_adopt(document, other, NULL, &id));
+    g_assert_true(studio_adopt(document, other, NULL, NULL, &id));
     g_assert_cmpstr(id, ==, "oak");
     const char *text = text_of(document);
     g_assert_nonnull(strstr(text, "<material id=\"bark\" colour=\"#ffffff\"/>"));
@@ -123,15 +123,31 @@ static void test_adopt(void) {
     studio_document_free(document);
 }
 
+static void test_adopt_and_plant(void) {
+    StudioDocument *document = document_of(STEM "</frond>\n");
+    FrSource *other = fr_source_new("other", OTHER, strlen(OTHER));
+    StudioSpot spot = {.at = {1, 2}, .scale = 1, .seed = -1};
+    char *id;
+    g_assert_true(studio_adopt(document, other, NULL, "plant", &id));
+    g_assert_true(studio_plant(document, id, &spot, 1, "plant"));
+    g_assert_cmpuint(studio_document_steps(document), ==, 1);
+    g_assert_cmpstr(studio_document_undo_name(document), ==, "Plant oak");
+    g_assert_true(studio_document_undo(document));
+    g_assert_cmpstr(text_of(document), ==, STEM "</frond>\n");
+    g_free(id);
+    fr_source_unref(other);
+    studio_document_free(document);
+}
+
 static void test_adopt_same(void) {
     StudioDocument *document = document_of(OTHER);
     FrSource *other = fr_source_new("other", OTHER, strlen(OTHER));
     char *id;
-    g_assert_true(studio_adopt(document, other, "oak", &id));
+    g_assert_true(studio_adopt(document, other, "oak", NULL, &id));
     g_assert_cmpstr(id, ==, "oak");
     g_assert_cmpstr(text_of(document), ==, OTHER);
     g_free(id);
-    g_assert_false(studio_adopt(document, other, "elm", &id));
+    g_assert_false(studio_adopt(document, other, "elm", NULL, &id));
     g_assert_null(id);
     fr_source_unref(other);
     studio_document_free(document);
@@ -146,7 +162,7 @@ static void test_adopt_presets(void) {
         char *path = project_file(name), *id;
         FrStatus status;
         FrSource *source = fr_source_load(path, 1000000, NULL, &status);
-        g_assert_true(studio_adopt(document, source, NULL, &id));
+        g_assert_true(studio_adopt(document, source, NULL, NULL, &id));
         g_assert_cmpstr(id, ==, presets[i]);
         g_free(id);
         fr_source_unref(source);
@@ -398,6 +414,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/scene/nothing is planted into a broken text", test_broken);
     g_test_add_func("/studio/scene/a brush fills gaps and no more", test_brush);
     g_test_add_func("/studio/scene/what is taken over keeps its bark and its curves", test_adopt);
+    g_test_add_func("/studio/scene/a preset is taken over and planted in one step",
+                    test_adopt_and_plant);
     g_test_add_func("/studio/scene/what is there already is not taken over again", test_adopt_same);
     g_test_add_func("/studio/scene/presets go into one document", test_adopt_presets);
     g_test_add_func("/studio/scene/places, rows and obstacles stand somewhere", test_stands);

@@ -1,4 +1,4 @@
-#include "studio/model/commands.h"
+#include "studio/model/commands_private.h"
 
 #include <stdarg.h>
 #include <string.h>
@@ -115,7 +115,7 @@ const char *studio_link_words(FrLinkKind kind, FrComponentKind from) {
 }
 
 // The `<link>` behind the last element that may stand before links; all of a graph.
-static char *link_xml(const char *from, const char *to, FrLinkKind kind) {
+char *studio_link_xml(const char *from, const char *to, FrLinkKind kind) {
     static const char *const kinds[] = {"", " kind=\"branch\"", " kind=\"leaf\"", ""};
     char *ends = g_markup_printf_escaped("<link from=\"%s\" to=\"%s\"", from, to);
     char *xml =
@@ -140,7 +140,7 @@ static uint32_t find_component(const StudioDocument *document, uint32_t plant, c
 
 // Puts a component, and links if `links` is not empty, into a graph. Where both go to the same
 // place they are one insertion.
-static void insert_component(const StudioDocument *document, uint32_t graph, const char *xml,
+void studio_insert_component(const StudioDocument *document, uint32_t graph, const char *xml,
                              const char *links, GArray *splices) {
     const FrContents *contents = contents_of(document);
     uint32_t after = last_component(contents, graph);
@@ -187,13 +187,13 @@ bool studio_add_component(StudioDocument *document, uint32_t plant, FrComponentK
     char *xml = g_strdup_printf("<%s id=\"%s\"%s/>", element, own, dress);
     g_free(dress);
     g_free(material);
-    char *link =
-        on == FR_NONE
-            ? g_strdup("")
-            : link_xml(parent, own,
-                       studio_likely_link((FrComponentKind)at(document, on)->component, kind));
+    char *link = on == FR_NONE
+                     ? g_strdup("")
+                     : studio_link_xml(
+                           parent, own,
+                           studio_likely_link((FrComponentKind)at(document, on)->component, kind));
     GArray *splices = new_splices();
-    insert_component(document, graph, xml, link, splices);
+    studio_insert_component(document, graph, xml, link, splices);
     bool is_changed = do_splices(document, splices, "Add %s", own, NULL);
     g_free(link);
     g_free(xml);
@@ -244,7 +244,7 @@ bool studio_add_link(StudioDocument *document, uint32_t plant, const char *from,
     const FrContents *contents = contents_of(document);
     uint32_t target = find_component(document, plant, to);
     GArray *splices = new_splices();
-    char *xml = link_xml(from, to, kind);
+    char *xml = studio_link_xml(from, to, kind);
     add_splice(splices,
                fr_contents_insert(contents, studio_graph_of(document, plant), FR_NONE, xml));
     char *depth = fr_contents_get(contents, target, "depth");
@@ -317,7 +317,7 @@ bool studio_duplicate_component(StudioDocument *document, uint32_t plant, const 
         FrLinkKind which = g_strcmp0(kind, "branch") == 0 ? FR_LINK_BRANCH
                            : g_strcmp0(kind, "leaf") == 0 ? FR_LINK_LEAF
                                                           : FR_LINK_CHILD;
-        char *xml = link_xml(is_from ? own : from, is_to ? own : to, which);
+        char *xml = studio_link_xml(is_from ? own : from, is_to ? own : to, which);
         g_string_append_printf(links, "%s%s", links->len == 0 ? "" : "\n", xml);
         g_free(xml);
         g_free(kind);
@@ -326,7 +326,7 @@ bool studio_duplicate_component(StudioDocument *document, uint32_t plant, const 
     }
     char *xml = copied_xml(document, component, own);
     GArray *splices = new_splices();
-    insert_component(document, studio_graph_of(document, plant), xml, links->str, splices);
+    studio_insert_component(document, studio_graph_of(document, plant), xml, links->str, splices);
     bool is_changed = do_splices(document, splices, "Duplicate %s", id, NULL);
     g_string_free(links, TRUE);
     g_free(xml);

@@ -126,7 +126,7 @@ bool studio_plant(StudioDocument *document, const char *plant, const StudioSpot 
     for (size_t i = 0; i < count; i++) {
         append_place(xml, plant, &spots[i], is_species);
     }
-    char *name = g_strdup_printf(key == NULL ? "Plant %s" : "Paint %s", plant);
+    char *name = g_strdup_printf("Plant %s", plant);
     bool is_changed = add_to_scene(document, "place", xml->str, name, key);
     g_free(name);
     g_string_free(xml, TRUE);
