@@ -1,4 +1,5 @@
-/// frond presets and frond new: the species that come with the program.
+/// frond presets and frond new: the species that come with the program, and presets of the user's
+/// own.
 #include "cli/cli.h"
 
 #include <errno.h>
@@ -65,7 +66,12 @@ static int compare_names(const void *a, const void *b) {
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/// The names of the presets in a folder, sorted.
+/// The folder of presets that the user has kept in the studio.
+static char *own_presets(void) {
+    return g_build_filename(g_get_user_data_dir(), "frond", "presets", NULL);
+}
+
+/// The names of the presets in a folder, sorted; none if it is not there.
 static GPtrArray *list_presets(const char *folder) {
     GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
     GDir *directory = g_dir_open(folder, 0, NULL);
@@ -99,29 +105,38 @@ static char *title_of(CliSession *session, const char *folder, const char *name)
     return title == NULL ? g_strdup("") : title;
 }
 
-FrStatus cli_presets(CliSession *session) {
-    char *folder = find_presets();
-    if (folder == NULL) {
-        return FR_ERR_MACHINE;
-    }
+/// Tells of the presets in a folder: in a list, or line by line if `list` is NULL.
+static void tell_presets(CliSession *session, const char *folder, bool is_own, json_t *list) {
     GPtrArray *names = list_presets(folder);
-    json_t *list = json_array();
     for (guint i = 0; i < names->len; i++) {
         const char *name = g_ptr_array_index(names, i);
-        char *title = title_of(session, folder, name);
-        if (session->options->is_json) {
-            json_array_append_new(list, json_pack("{s:s, s:s}", "name", name, "title", title));
+        char *title = is_own ? g_strdup("your own") : title_of(session, folder, name);
+        if (list != NULL) {
+            json_array_append_new(list, json_pack("{s:s, s:s, s:b}", "name", name, "title",
+                                                  is_own ? "" : title, "own", is_own));
         } else {
             printf("%-16s %s\n", name, title);
         }
         g_free(title);
     }
-    if (session->options->is_json) {
+    g_ptr_array_unref(names);
+}
+
+FrStatus cli_presets(CliSession *session) {
+    char *folder = find_presets();
+    if (folder == NULL) {
+        return FR_ERR_MACHINE;
+    }
+    json_t *list = session->options->is_json ? json_array() : NULL;
+    char *own = own_presets();
+    tell_presets(session, folder, false, list);
+    tell_presets(session, own, true, list);
+    if (list != NULL) {
         json_dumpf(list, stdout, JSON_INDENT(2));
         printf("\n");
     }
     json_decref(list);
-    g_ptr_array_unref(names);
+    g_free(own);
     g_free(folder);
     return FR_OK;
 }
@@ -173,29 +188,43 @@ static char *new_path(const char *name) {
     return g_str_has_suffix(name, ".frond") ? g_strdup(name) : g_strconcat(name, ".frond", NULL);
 }
 
-FrStatus cli_new(CliSession *session) {
-    const CliOptions *options = session->options;
-    char *folder = find_presets();
-    if (folder == NULL) {
-        return FR_ERR_MACHINE;
+/// The folder, of two, that has a preset; NULL after a message.
+static const char *folder_of(const char *preset, const char *shipped, const char *own) {
+    const char *const folders[] = {own, shipped};
+    GPtrArray *all = g_ptr_array_new_with_free_func(g_free);
+    const char *found = NULL;
+    for (int i = 0; i < 2; i++) {
+        GPtrArray *names = list_presets(folders[i]);
+        if (found == NULL && g_ptr_array_find_with_equal_func(names, preset, g_str_equal, NULL)) {
+            found = folders[i];
+        }
+        g_ptr_array_extend_and_steal(all, names);
     }
-    GPtrArray *names = list_presets(folder);
-    FrStatus status = FR_ERR_USAGE;
-    const char *preset = options->preset == NULL ? usual : options->preset;
-    if (!g_ptr_array_find_with_equal_func(names, preset, g_str_equal, NULL)) {
-        char *hint = cli_hint(preset, (const char *const *)names->pdata, names->len);
+    if (found == NULL) {
+        char *hint = cli_hint(preset, (const char *const *)all->pdata, all->len);
         cli_message("there is no preset '%s'%s", preset,
                     *hint == '\0' ? "; frond presets lists them" : hint);
         g_free(hint);
-    } else {
-        char *path = new_path(g_ptr_array_index(options->files, 0));
-        status = path == NULL ? FR_ERR_USAGE : copy_preset(folder, preset, path);
+    }
+    g_ptr_array_unref(all);
+    return found;
+}
+
+FrStatus cli_new(CliSession *session) {
+    const CliOptions *options = session->options;
+    char *shipped = find_presets(), *own = own_presets();
+    FrStatus status = shipped == NULL ? FR_ERR_MACHINE : FR_ERR_USAGE;
+    const char *preset = options->preset == NULL ? usual : options->preset;
+    const char *folder = shipped == NULL ? NULL : folder_of(preset, shipped, own);
+    char *path = folder == NULL ? NULL : new_path(g_ptr_array_index(options->files, 0));
+    if (path != NULL) {
+        status = copy_preset(folder, preset, path);
         if (status == FR_OK && !options->is_quiet) {
             printf("%s\n", path);
         }
-        g_free(path);
     }
-    g_ptr_array_unref(names);
-    g_free(folder);
+    g_free(path);
+    g_free(own);
+    g_free(shipped);
     return status;
 }

@@ -1,6 +1,6 @@
 #include "studio/files.h"
 
-#include <string.h>
+#include "studio/model/presets.h"
 
 enum { FOLDERS_UP = 4 };
 
@@ -42,30 +42,44 @@ char *studio_manual_page(const char *name) {
     return found != NULL ? found : existing(g_build_filename(FROND_DOCDIR, name, NULL));
 }
 
-static int compare_names(const void *a, const void *b) {
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-GPtrArray *studio_preset_names(void) {
-    GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
+GPtrArray *studio_shipped_presets(void) {
     char *folder = studio_data_file("presets");
-    GDir *directory = folder == NULL ? NULL : g_dir_open(folder, 0, NULL);
-    const char *name;
-    while (directory != NULL && (name = g_dir_read_name(directory)) != NULL) {
-        if (g_str_has_suffix(name, ".frond")) {
-            g_ptr_array_add(names, g_strndup(name, strlen(name) - strlen(".frond")));
-        }
-    }
-    g_clear_pointer(&directory, g_dir_close);
-    g_ptr_array_sort(names, compare_names);
+    GPtrArray *names = studio_presets_list(folder);
     g_free(folder);
     return names;
 }
 
+GPtrArray *studio_own_presets(void) {
+    char *folder = studio_presets_folder();
+    GPtrArray *names = studio_presets_list(folder);
+    g_free(folder);
+    return names;
+}
+
+GPtrArray *studio_preset_names(void) {
+    GPtrArray *names = studio_own_presets(), *shipped = studio_shipped_presets();
+    for (guint i = 0; i < shipped->len; i++) {
+        const char *name = g_ptr_array_index(shipped, i);
+        if (!g_ptr_array_find_with_equal_func(names, name, g_str_equal, NULL)) {
+            g_ptr_array_add(names, g_strdup(name));
+        }
+    }
+    g_ptr_array_unref(shipped);
+    return names;
+}
+
 char *studio_preset_file(const char *name, const char *ending) {
-    char *relative = g_strconcat("presets/", name, ending, NULL);
-    char *file = studio_data_file(relative);
-    g_free(relative);
+    char *folder = studio_presets_folder();
+    char *document = existing(studio_presets_file(folder, name, ".frond")), *file;
+    if (document != NULL) {
+        file = existing(studio_presets_file(folder, name, ending));
+    } else {
+        char *relative = g_strconcat("presets/", name, ending, NULL);
+        file = studio_data_file(relative);
+        g_free(relative);
+    }
+    g_free(document);
+    g_free(folder);
     return file;
 }
 

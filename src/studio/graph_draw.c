@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+enum { ICON = 20 };
+
 static void rounded(cairo_t *cairo, double x, double y, double width, double height, double r) {
     cairo_new_sub_path(cairo);
     cairo_arc(cairo, x + width - r, y + r, r, -G_PI / 2, 0);
@@ -140,8 +142,41 @@ static void draw_box(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index, co
     draw_count(panel, cairo, box, &rect, ink);
 }
 
+// A tool's icon at a place, on a ground of its colour if `ground` > 0.
+static void draw_tool(cairo_t *cairo, guint tool, double x, double y, double ground) {
+    static const double preset[3] = {0.62, 0.58, 0.86};
+    double colour[3] = {preset[0], preset[1], preset[2]};
+    if (tool != TOOL_PRESET) {
+        studio_component_colour((FrComponentKind)tool, colour);
+    }
+    if (ground > 0) {
+        rounded(cairo, x - 7, y - 7, TOOL, TOOL, 7);
+        cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], ground);
+        cairo_fill(cairo);
+    }
+    cairo_save(cairo);
+    cairo_translate(cairo, x, y);
+    cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
+    if (tool != TOOL_PRESET) {
+        studio_component_icon(cairo, (FrComponentKind)tool, ICON);
+    } else { // some boxes that are linked, in a frame
+        cairo_set_line_width(cairo, 1.5);
+        rounded(cairo, 1.5, 1.5, ICON - 3, ICON - 3, 3);
+        cairo_rectangle(cairo, 8, 5, 4, 3);
+        cairo_rectangle(cairo, 5, 12, 4, 3);
+        cairo_rectangle(cairo, 11.5, 12, 4, 3);
+        cairo_stroke(cairo);
+        cairo_move_to(cairo, 10, 8);
+        cairo_line_to(cairo, 7, 12);
+        cairo_move_to(cairo, 10, 8);
+        cairo_line_to(cairo, 13.5, 12);
+        cairo_stroke(cairo);
+    }
+    cairo_restore(cairo);
+}
+
 static void draw_tools(StudioGraphPanel *panel, cairo_t *cairo, const GdkRGBA *ink) {
-    double top = studio_graph_tools_top(panel), colour[3];
+    double top = studio_graph_tools_top(panel);
     bool is_light_ink = ink->red > 0.5f;
     double ground = is_light_ink ? 0.14 : 0.92;
     cairo_set_source_rgb(cairo, ground, ground, ground + 0.01);
@@ -152,42 +187,27 @@ static void draw_tools(StudioGraphPanel *panel, cairo_t *cairo, const GdkRGBA *i
     const char *tip = "Drag a component onto another";
     uint32_t kind =
         panel->drag == DRAG_NOTHING ? studio_graph_tool_under(panel, panel->x, panel->y) : FR_NONE;
-    text_at(panel, cairo, kind != FR_NONE ? fr_pgraph_table((FrComponentKind)kind)->element : tip,
-            TOOL_PAD + 2, top + 7, gtk_widget_get_width(GTK_WIDGET(panel)) - 2 * TOOL_PAD, 11.5,
-            false);
-    for (guint i = 1; i < FR_COMPONENT_COUNT; i++) {
+    text_at(panel, cairo, kind != FR_NONE ? studio_graph_tool_name(kind) : tip, TOOL_PAD + 2,
+            top + 7, gtk_widget_get_width(GTK_WIDGET(panel)) - 2 * TOOL_PAD, 11.5, false);
+    for (guint i = 1; i < TOOL_END; i++) {
         graphene_rect_t rect = studio_graph_tool_rect(panel, i);
-        studio_component_colour((FrComponentKind)i, colour);
         if (i == kind) {
             rounded(cairo, rect.origin.x + 1, rect.origin.y + 1, TOOL - 2, TOOL - 2, 6);
             cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, 0.12);
             cairo_fill(cairo);
         }
-        cairo_save(cairo);
-        cairo_translate(cairo, rect.origin.x + 7, rect.origin.y + 7);
-        cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
-        studio_component_icon(cairo, (FrComponentKind)i, 20);
-        cairo_restore(cairo);
+        draw_tool(cairo, i, rect.origin.x + 7, rect.origin.y + 7, 0);
     }
 }
 
 // What is dragged, and what would come of it.
 static void draw_drag(StudioGraphPanel *panel, cairo_t *cairo) {
-    FrComponentKind kind = panel->drag == DRAG_TOOL
-                               ? (FrComponentKind)panel->held
-                               : studio_graph_box(panel->graph, panel->held)->kind;
-    double colour[3];
+    guint tool = panel->drag == DRAG_TOOL
+                     ? panel->held
+                     : (guint)studio_graph_box(panel->graph, panel->held)->kind;
     bool is_refused;
     char *words = studio_graph_words_of_drop(panel, &is_refused);
-    studio_component_colour(kind, colour);
-    rounded(cairo, panel->x - 17, panel->y - 17, 34, 34, 7);
-    cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], 0.35);
-    cairo_fill(cairo);
-    cairo_save(cairo);
-    cairo_translate(cairo, panel->x - 10, panel->y - 10);
-    cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
-    studio_component_icon(cairo, kind, 20);
-    cairo_restore(cairo);
+    draw_tool(cairo, tool, panel->x - 0.5 * ICON, panel->y - 0.5 * ICON, 0.35);
     if (words != NULL) {
         double width = fmin(gtk_widget_get_width(GTK_WIDGET(panel)) - 12,
                             8 + 6.6 * (double)g_utf8_strlen(words, -1));

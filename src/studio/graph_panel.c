@@ -16,7 +16,11 @@ static void drop(StudioGraphPanel *panel) {
         panel->over == FR_NONE ? NULL : studio_graph_box(panel->graph, panel->over);
     char *target = on == NULL ? NULL : g_strdup(on->id);
     char *made = NULL;
-    if (panel->drag == DRAG_TOOL && panel->y < studio_graph_tools_top(panel)) {
+    bool is_tool = panel->drag == DRAG_TOOL && panel->y < studio_graph_tools_top(panel);
+    if (is_tool && panel->held == TOOL_PRESET) {
+        gtk_widget_activate_action(GTK_WIDGET(panel), "win.insert-preset-on", "s",
+                                   target == NULL ? "" : target);
+    } else if (is_tool) {
         studio_add_component(panel->document, panel->plant, (FrComponentKind)panel->held, target,
                              &made);
     } else if (panel->drag == DRAG_BOX && on != NULL) {
@@ -67,6 +71,9 @@ static void click(StudioGraphPanel *panel) {
     uint32_t element = FR_NONE;
     if (panel->drag == DRAG_BOX) {
         element = studio_graph_box(panel->graph, panel->held)->element;
+    } else if (panel->drag == DRAG_TOOL && panel->held == TOOL_PRESET) {
+        gtk_widget_activate_action(GTK_WIDGET(panel), "win.insert-preset", NULL);
+        return;
     } else if (panel->drag == DRAG_TOOL) {
         // A click is the short way: on what is selected.
         gtk_widget_activate_action(GTK_WIDGET(panel), "win.add", "s",
@@ -213,9 +220,9 @@ gboolean studio_graph_panel_where(StudioGraphPanel *panel, const char *name, gra
         *box = found == FR_NONE ? *box : studio_graph_box_rect(panel, found);
         return found != FR_NONE;
     }
-    for (guint kind = 1; g_str_has_prefix(name, "tool:") && kind < FR_COMPONENT_COUNT; kind++) {
-        if (strcmp(fr_pgraph_table((FrComponentKind)kind)->element, name + 5) == 0) {
-            *box = studio_graph_tool_rect(panel, kind);
+    for (guint tool = 1; g_str_has_prefix(name, "tool:") && tool < TOOL_END; tool++) {
+        if (strcmp(studio_graph_tool_name(tool), name + strlen("tool:")) == 0) {
+            *box = studio_graph_tool_rect(panel, tool);
             return TRUE;
         }
     }
@@ -271,6 +278,8 @@ static void add_controllers(StudioGraphPanel *panel) {
 static void studio_graph_panel_init(StudioGraphPanel *panel) {
     static const char *const items[][2] = {{"Duplicate", "win.duplicate"},
                                            {"Enable or Disable", "win.toggle-enabled"},
+                                           {"Keep as a Preset…", "win.save-preset"},
+                                           {"Insert a Preset…", "win.insert-preset"},
                                            {"Remove", "win.remove"}};
     GtkWidget *widget = GTK_WIDGET(panel);
     panel->plant = panel->selected = panel->over = FR_NONE;

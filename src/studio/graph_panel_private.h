@@ -17,6 +17,8 @@ enum {
     TOOL_PAD = 10,
     CLICK = 5,
     WIRE_GRAB = 7,
+    TOOL_PRESET = FR_COMPONENT_COUNT, ///< behind the kinds of components
+    TOOL_END,
 };
 
 typedef enum DragKind { DRAG_NOTHING, DRAG_TOOL, DRAG_BOX, DRAG_CANVAS } DragKind;
@@ -45,6 +47,8 @@ graphene_rect_t studio_graph_tool_rect(StudioGraphPanel *panel, guint kind);
 /// How much smaller than it is meant to be the graph is drawn.
 double studio_graph_scale(StudioGraphPanel *panel);
 graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t box);
+/// What a tool is called.
+const char *studio_graph_tool_name(guint tool);
 /// The ends of a wire, and its two bends between them.
 void studio_graph_wire_course(StudioGraphPanel *panel, const StudioWire *wire, double at[4][2]);
 // What is under a point: FR_NONE where there is nothing.

@@ -12,11 +12,15 @@ static guint tools_in_row(StudioGraphPanel *panel) {
 }
 
 double studio_graph_tools_top(StudioGraphPanel *panel) {
-    guint rows = (FR_COMPONENT_COUNT - 2) / tools_in_row(panel) + 1;
+    guint rows = (TOOL_END - 2) / tools_in_row(panel) + 1;
     return gtk_widget_get_height(GTK_WIDGET(panel)) - (double)rows * TOOL - 2.0 * TOOL_PAD - 18;
 }
 
-// Tools are all kinds but the camera, which every graph has.
+const char *studio_graph_tool_name(guint tool) {
+    return tool == TOOL_PRESET ? "preset" : fr_pgraph_table((FrComponentKind)tool)->element;
+}
+
+// Tools are all kinds but the camera, which every graph has, and presets.
 graphene_rect_t studio_graph_tool_rect(StudioGraphPanel *panel, guint kind) {
     guint place = kind - 1, in_row = tools_in_row(panel);
     return GRAPHENE_RECT_INIT(
@@ -59,7 +63,7 @@ uint32_t studio_graph_box_under(StudioGraphPanel *panel, double x, double y) {
 }
 
 uint32_t studio_graph_tool_under(StudioGraphPanel *panel, double x, double y) {
-    for (guint kind = 1; kind < FR_COMPONENT_COUNT; kind++) {
+    for (guint kind = 1; kind < TOOL_END; kind++) {
         graphene_rect_t rect = studio_graph_tool_rect(panel, kind);
         if (is_within(&rect, x, y)) {
             return kind;
@@ -118,6 +122,9 @@ char *studio_graph_words_of_drop(StudioGraphPanel *panel, bool *is_refused) {
                    : NULL;
     }
     const StudioBox *on = studio_graph_box(panel->graph, panel->over);
+    if (panel->drag == DRAG_TOOL && panel->held == TOOL_PRESET) {
+        return g_strdup_printf("a preset on %s", on->id);
+    }
     FrComponentKind kind = panel->drag == DRAG_TOOL
                                ? (FrComponentKind)panel->held
                                : studio_graph_box(panel->graph, panel->held)->kind;

@@ -1,10 +1,8 @@
-/// The page of a window without a document: presets with their pictures, recent documents, and what
-/// a crash has left.
+/// The page of a window without a document: presets, recent documents, and what a crash has left.
+#include "studio/preset_cards.h"
 #include "studio/window_private.h"
 
 #include <string.h>
-
-enum { PICTURE_WIDTH = 120, PICTURE_HEIGHT = 150 };
 
 static const char key_path[] = "studio-path";
 
@@ -17,7 +15,8 @@ static GtkWidget *heading(const char *text) {
 
 // ---- presets -----------------------------------------------------------------------------------
 
-static void begin_preset(StudioWindow *window, const char *name) {
+static void begin_preset(GtkWidget *cards, const char *name, StudioWindow *window) {
+    (void)cards;
     char *file = studio_preset_file(name, ".frond"), *text = NULL;
     gsize size;
     if (file != NULL && g_file_get_contents(file, &text, &size, NULL)) {
@@ -29,59 +28,6 @@ static void begin_preset(StudioWindow *window, const char *name) {
     }
     g_free(text);
     g_free(file);
-}
-
-static void on_preset(GtkFlowBox *box, GtkFlowBoxChild *child, StudioWindow *window) {
-    (void)box;
-    begin_preset(window, g_object_get_data(G_OBJECT(child), key_path));
-}
-
-static GtkWidget *make_preset(const char *name) {
-    char *file = studio_preset_file(name, ".png"), *title = studio_preset_title(name);
-    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
-    GtkWidget *picture = gtk_picture_new_for_filename(file);
-    gtk_picture_set_can_shrink(GTK_PICTURE(picture), TRUE);
-    gtk_widget_set_size_request(picture, PICTURE_WIDTH, PICTURE_HEIGHT);
-    gtk_widget_add_css_class(picture, "preset-picture");
-    gtk_widget_set_overflow(picture, GTK_OVERFLOW_HIDDEN);
-    GtkWidget *clamp = adw_clamp_new(); // or each would be as wide as its picture has pixels
-    adw_clamp_set_maximum_size(ADW_CLAMP(clamp), PICTURE_WIDTH);
-    adw_clamp_set_tightening_threshold(ADW_CLAMP(clamp), PICTURE_WIDTH);
-    adw_clamp_set_child(ADW_CLAMP(clamp), picture);
-    GtkWidget *label = gtk_label_new(title);
-    gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
-    gtk_box_append(GTK_BOX(box), clamp);
-    gtk_box_append(GTK_BOX(box), label);
-    GtkWidget *child = gtk_flow_box_child_new();
-    gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(child), box);
-    gtk_widget_add_css_class(child, "preset");
-    g_object_set_data_full(G_OBJECT(child), key_path, g_strdup(name), g_free);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(child), GTK_ACCESSIBLE_PROPERTY_LABEL, title, -1);
-    g_free(title);
-    g_free(file);
-    return child;
-}
-
-static GtkWidget *make_presets(StudioWindow *window) {
-    GtkWidget *flow = gtk_flow_box_new();
-    gtk_flow_box_set_selection_mode(GTK_FLOW_BOX(flow), GTK_SELECTION_NONE);
-    gtk_flow_box_set_homogeneous(GTK_FLOW_BOX(flow), TRUE);
-    gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(flow), 12);
-    gtk_flow_box_set_row_spacing(GTK_FLOW_BOX(flow), 6);
-    gtk_flow_box_set_column_spacing(GTK_FLOW_BOX(flow), 6);
-    gtk_widget_set_valign(flow, GTK_ALIGN_START);
-    GPtrArray *names = studio_preset_names();
-    for (guint i = 0; i < names->len; i++) {
-        gtk_flow_box_append(GTK_FLOW_BOX(flow), make_preset(g_ptr_array_index(names, i)));
-    }
-    if (names->len == 0) {
-        gtk_flow_box_append(
-            GTK_FLOW_BOX(flow),
-            gtk_label_new("No presets were found; FROND_DATA may name their folder"));
-    }
-    g_ptr_array_unref(names);
-    g_signal_connect(flow, "child-activated", G_CALLBACK(on_preset), window);
-    return flow;
 }
 
 // ---- recent documents --------------------------------------------------------------------------
@@ -221,8 +167,9 @@ GtkWidget *studio_welcome_new(StudioWindow *window) {
     gtk_box_append(GTK_BOX(side), make_recent(window));
     GtkWidget *main = gtk_box_new(GTK_ORIENTATION_VERTICAL, 12);
     gtk_widget_set_hexpand(main, TRUE);
-    gtk_box_append(GTK_BOX(main), heading("Begin with a preset"));
-    gtk_box_append(GTK_BOX(main), make_presets(window));
+    GtkWidget *presets = studio_preset_cards_new();
+    g_signal_connect(presets, "chosen", G_CALLBACK(begin_preset), window);
+    gtk_box_append(GTK_BOX(main), presets);
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 32);
     gtk_widget_add_css_class(box, "welcome");
     gtk_box_append(GTK_BOX(box), side);

@@ -334,6 +334,7 @@ StudioWindow *studio_window_new(AdwApplication *application, StudioSettings *set
     window->toasts = ADW_TOAST_OVERLAY(adw_toast_overlay_new());
     window->stack = gtk_stack_new();
     studio_window_add_actions(window);
+    studio_window_add_preset_actions(window);
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
     gtk_box_append(GTK_BOX(box), studio_window_make_header(window));
     gtk_box_append(GTK_BOX(box), GTK_WIDGET(window->toasts));

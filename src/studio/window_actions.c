@@ -142,8 +142,7 @@ static void do_redo(GSimpleAction *action, GVariant *parameter, gpointer data) {
     studio_document_redo(((StudioWindow *)data)->document);
 }
 
-// The id of the component that is selected; NULL: none is.
-static const char *selected_component(StudioWindow *window) {
+const char *studio_window_component(StudioWindow *window) {
     uint32_t element = studio_window_selected(window);
     const FrContents *contents = studio_document_contents(window->document);
     return element != FR_NONE && fr_contents_at(contents, element)->component >= 0
@@ -151,7 +150,7 @@ static const char *selected_component(StudioWindow *window) {
                : NULL;
 }
 
-static void select_component(StudioWindow *window, const char *id) {
+void studio_window_select_component(StudioWindow *window, const char *id) {
     const FrContents *contents = studio_document_contents(window->document);
     uint32_t graph = studio_graph_of(window->document, studio_window_plant(window));
     studio_window_select(
@@ -164,11 +163,11 @@ static void do_add(GSimpleAction *action, GVariant *parameter, gpointer data) {
     const char *name = g_variant_get_string(parameter, NULL);
     for (int kind = 0; kind < FR_COMPONENT_COUNT; kind++) {
         char *id = NULL;
-        char *on = g_strdup(selected_component(window));
+        char *on = g_strdup(studio_window_component(window));
         if (strcmp(fr_pgraph_table((FrComponentKind)kind)->element, name) == 0 &&
             studio_add_component(window->document, studio_window_plant(window),
                                  (FrComponentKind)kind, on, &id)) {
-            select_component(window, id);
+            studio_window_select_component(window, id);
         }
         g_free(on);
         g_free(id);
@@ -180,7 +179,7 @@ static void do_remove(GSimpleAction *action, GVariant *parameter, gpointer data)
     (void)parameter;
     StudioWindow *window = data;
     uint32_t element = studio_window_selected(window);
-    char *id = g_strdup(selected_component(window));
+    char *id = g_strdup(studio_window_component(window));
     if (id != NULL) {
         studio_remove_component(window->document, studio_window_plant(window), id);
     } else if (element != FR_NONE && element != 0) {
@@ -194,10 +193,10 @@ static void do_duplicate(GSimpleAction *action, GVariant *parameter, gpointer da
     (void)action;
     (void)parameter;
     StudioWindow *window = data;
-    char *id = g_strdup(selected_component(window)), *copy = NULL;
+    char *id = g_strdup(studio_window_component(window)), *copy = NULL;
     if (id != NULL && studio_duplicate_component(window->document, studio_window_plant(window), id,
                                                  true, &copy)) {
-        select_component(window, copy);
+        studio_window_select_component(window, copy);
     }
     g_free(copy);
     g_free(id);
@@ -207,7 +206,7 @@ static void do_toggle_enabled(GSimpleAction *action, GVariant *parameter, gpoint
     (void)action;
     (void)parameter;
     StudioWindow *window = data;
-    char *id = g_strdup(selected_component(window));
+    char *id = g_strdup(studio_window_component(window));
     if (id != NULL) {
         const FrContents *contents = studio_document_contents(window->document);
         char *enabled = fr_contents_get(contents, studio_window_selected(window), "enabled");
@@ -449,8 +448,15 @@ void studio_window_update_actions(StudioWindow *window) {
                     studio_document_contents(document) != NULL;
     uint32_t plant = is_whole ? studio_window_plant(window) : FR_NONE;
     enable(window, "roll", plant != FR_NONE);
-    enable(window, "add", plant != FR_NONE && studio_graph_of(document, plant) != FR_NONE);
-    bool has_component = is_whole && selected_component(window) != NULL;
+    bool has_graph = plant != FR_NONE && studio_graph_of(document, plant) != FR_NONE;
+    static const char *const adding[] = {"add", "insert-preset", "insert-preset-on",
+                                         "insert-preset-named"};
+    for (size_t i = 0; i < G_N_ELEMENTS(adding); i++) {
+        enable(window, adding[i], has_graph);
+    }
+    bool has_component = is_whole && studio_window_component(window) != NULL;
+    enable(window, "save-preset", has_component);
+    enable(window, "save-preset-as", has_component);
     enable(window, "duplicate", has_component);
     enable(window, "toggle-enabled", has_component);
     enable(window, "remove", is_there && studio_window_selected(window) != FR_NONE);

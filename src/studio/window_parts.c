@@ -129,6 +129,7 @@ static GtkWidget *make_add(void) {
         g_free(action);
         g_free(label);
     }
+    g_menu_append(menu, "Preset…", "win.insert-preset");
     GtkWidget *button = gtk_menu_button_new();
     gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));

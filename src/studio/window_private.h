@@ -82,6 +82,14 @@ void studio_window_edit_picked(StudioWindow *window, const char *attribute, cons
 void studio_window_add_actions(StudioWindow *window);
 /// Enables what can be done now.
 void studio_window_update_actions(StudioWindow *window);
+/// The id of the component that is selected; NULL: none is.
+const char *studio_window_component(StudioWindow *window);
+/// Selects a component of the plant that is shown by its id.
+void studio_window_select_component(StudioWindow *window, const char *id);
+
+// window_presets.c
+
+void studio_window_add_preset_actions(StudioWindow *window);
 
 // window.c
 

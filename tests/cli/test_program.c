@@ -285,9 +285,19 @@ static void test_new(void) {
     g_assert_true(g_file_set_contents(
         "presets/oak.frond", "<!-- An oak\n  of no kind -->\n<frond version='1'/>\n", -1, NULL));
     g_setenv("FROND_DATA", ".", TRUE);
+    g_setenv("XDG_DATA_HOME", folder, TRUE);
+    g_mkdir_with_parents("frond/presets", 0777);
+    g_assert_true(
+        g_file_set_contents("frond/presets/my twig.frond", "<frond version='1'/>\n", -1, NULL));
     static const Command rows[] = {
-        {"presets", 0, "oak              An oak\n", ""},
-        {"presets --json", 0, "[*\"name\": \"oak\"*\"title\": \"An oak\"*]\n", ""},
+        {"presets", 0, "oak              An oak\nmy twig          your own\n", ""},
+        {"presets --json", 0,
+         "[*\"name\": \"oak\"*\"title\": \"An oak\"*\"own\": false*\"name\": \"my twig\"*"
+         "\"own\": true*]\n",
+         ""},
+        {"new twig --preset 'my twig'", 0, "twig.frond\n", ""},
+        {"new other --preset 'my twg'", 2, "",
+         "frond: there is no preset*did you mean 'my twig'?\n"},
         {"new mine --preset oka", 2, "", "frond: there is no preset 'oka'; did you mean 'oak'?\n"},
         {"new mine --preset ../oak", 2, "", "frond: there is no preset*"},
         {"new mine --preset oak", 0, "mine.frond\n", ""},
@@ -314,6 +324,8 @@ static void test_new(void) {
     did = run("build young.frond");
     expect(&did, &(Command){"build young.frond", 0, "", ""});
     g_remove("presets/oak.frond");
+    g_remove("frond/presets/my twig.frond");
+    g_remove("frond/presets");
     leave_folder(folder, previous);
 }
 

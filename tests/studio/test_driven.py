@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import sys
 import tempfile
+import time
 import traceback
 
 import studio_driver as driver
@@ -223,6 +224,39 @@ def test_link(run):
     studio.wait()
     assert studio.state()["steps"] == before + 2, "nothing may lead to the camera"
     run.picture("flower-linked")
+
+
+def test_preset(run):
+    """a part of a plant is kept as a preset, and put in again as one step"""
+    studio = run.studio
+    before = studio.state()
+    studio.ask("do select::phiball")
+    studio.ask("do save-preset")
+    studio.wait()
+    studio.ask(f"picture-of-dialog {PICTURES / 'preset-keep.png'}")
+    studio.ask("close-dialog")
+    studio.ask("do save-preset-as::a head")
+    kept = os.path.join(run.home, "data", "frond", "presets", "a head")
+    assert os.path.exists(kept + ".frond")
+    studio.drag(studio.middle("tool:preset"), studio.middle("box:stem"))
+    for _ in range(200):  # it is drawn meanwhile
+        if os.path.exists(kept + ".png"):
+            break
+        time.sleep(0.1)
+    assert os.path.exists(kept + ".png"), "it has no picture"
+    time.sleep(0.5)
+    studio.ask(f"picture-of-dialog {PICTURES / 'preset-insert.png'}")
+    studio.ask("close-dialog")
+    studio.ask("do select::stem")
+    studio.ask("do insert-preset-named::a head")
+    studio.wait()
+    after = studio.state()
+    assert after["steps"] == before["steps"] + 1 and after["problems"] == 0, after
+    assert after["leaves"] == 2 * before["leaves"], after
+    assert after["selected"].endswith("phiball:phiball2"), after
+    studio.ask("do undo")
+    studio.wait()
+    assert studio.state()["digest"] == before["digest"]
 
 
 def test_slider(run):
@@ -547,7 +581,7 @@ def test_killed(run):
 
 
 TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_light, test_sketch,
-         test_device, test_flower, test_link, test_slider, test_curve, test_view, test_hand,
+         test_device, test_flower, test_link, test_preset, test_slider, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
 

@@ -16,7 +16,7 @@
     "    <slider id=\"other\" label=\"of the trunk\"/>\n    <pgraph>\n"                            \
     "      <camera id=\"root\"/>\n"                                                                \
     "      <horn id=\"trunk\" material=\"my-bark\" length=\"1 | other\"/>\n"                       \
-    "      <horn id=\"twig\" length=\"0.3 | size\" radius=\"0.01..0.02 : swing()\"/>\n"              \
+    "      <horn id=\"twig\" length=\"0.3 | size\" radius=\"0.01..0.02 : swing()\"/>\n"            \
     "      <leaf id=\"leaf\" material=\"red\"/>\n"                                                 \
     "      <link from=\"root\" to=\"trunk\"/>\n      <link from=\"trunk\" to=\"twig\"/>\n"         \
     "      <link from=\"twig\" to=\"leaf\"/>\n    </pgraph>\n  </plant>\n</frond>\n"
@@ -30,7 +30,7 @@
     "    <slider id=\"size\" label=\"how big\" min=\"0\" max=\"2\"/>\n    <pgraph>\n"              \
     "      <camera id=\"root2\"/>\n"                                                               \
     "      <horn material=\"my-bark\" id=\"twig\" length=\"0.3 | size\" radius=\"0.01..0.02 : "    \
-    "swing()\"/>\n      <leaf id=\"leaf\" material=\"red\"/>\n"                                      \
+    "swing()\"/>\n      <leaf id=\"leaf\" material=\"red\"/>\n"                                    \
     "      <link from=\"root2\" to=\"twig\"/>\n      <link from=\"twig\" to=\"leaf\"/>\n"          \
     "    </pgraph>\n  </plant>\n</frond>\n"
 
@@ -119,7 +119,8 @@ static void test_insert(void) {
     g_assert_cmpuint(studio_document_steps(document), ==, 1);
     g_assert_cmpstr(studio_document_undo_name(document), ==, "Insert red_twig");
     const char *text = text_of(document);
-    g_assert_nonnull(strstr(text, "<horn material=\"my-bark\" id=\"twig2\" length=\"0.3 | size\" "));
+    g_assert_nonnull(
+        strstr(text, "<horn material=\"my-bark\" id=\"twig2\" length=\"0.3 | size\" "));
     g_assert_nonnull(strstr(text, "\n      <link from=\"trunk\" to=\"twig2\"/>\n"));
     g_assert_nonnull(strstr(text, "\n      <link from=\"twig2\" to=\"leaf2\"/>\n"));
     g_assert_null(strstr(text, "red_twig")); // all else is there, the same to the byte
@@ -146,8 +147,9 @@ static void test_insert_clash(void) {
     g_assert_nonnull(strstr(text, "<function id=\"swing\">red_twig_thin(t) * 0.5</function>"));
     g_assert_nonnull(strstr(text, "<material id=\"red_twig_my_bark\" colour=\"#665544\"/>"));
     g_assert_nonnull(strstr(text, "\n    <slider id=\"red_twig_size\" label=\"how big\""));
-    g_assert_nonnull(strstr(text, "<horn material=\"red_twig_my_bark\" id=\"twig2\" "
-                                  "length=\"0.3 | red_twig_size\" radius=\"0.01..0.02 : swing()\"/>"));
+    g_assert_nonnull(strstr(text,
+                            "<horn material=\"red_twig_my_bark\" id=\"twig2\" "
+                            "length=\"0.3 | red_twig_size\" radius=\"0.01..0.02 : swing()\"/>"));
     g_assert_null(strstr(text, "to=\"twig2\"")); // nothing leads to it
     fr_source_unref(source);
     studio_document_free(document);
@@ -158,8 +160,7 @@ static void test_insert_shipped(void) {
     FrStatus status;
     FrSource *source = fr_source_load(path, 1000000, NULL, &status);
     StudioDocument *document = document_of(BUSH);
-    g_assert_true(
-        studio_insert_subgraph(document, first_plant(document), source, "trunk", NULL));
+    g_assert_true(studio_insert_subgraph(document, first_plant(document), source, "trunk", NULL));
     const char *text = text_of(document);
     g_assert_nonnull(strstr(text, "<link from=\"trunk\" to=\"rosette\"/>"));
     g_assert_nonnull(strstr(text, "<link from=\"trunk\" to=\"stalks\"/>"));

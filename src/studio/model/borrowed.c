@@ -105,8 +105,8 @@ static bool is_formula(const FrParam *row, const char *value) {
 // Whether a value may name things of a kind.
 static bool may_name(const FrParam *row, const char *value, StudioTag tag) {
     const char *name = row->name;
-    if (is_formula(row, value) && (tag == STUDIO_TAG_CURVE || tag == STUDIO_TAG_FUNCTION ||
-                                   tag == STUDIO_TAG_SLIDER)) {
+    if (is_formula(row, value) &&
+        (tag == STUDIO_TAG_CURVE || tag == STUDIO_TAG_FUNCTION || tag == STUDIO_TAG_SLIDER)) {
         return true;
     }
     if (row->kind != FR_PARAM_TEXT) {
@@ -230,9 +230,9 @@ void studio_names_add(StudioNames *names, const FrContents *mine, uint32_t insid
     while (length > 1 && g_ascii_isdigit(stem[length - 1])) {
         length--;
     }
-    for (uint32_t k = 2; fr_contents_find(mine, inside, id) != FR_NONE ||
-                         fr_contents_find(theirs, 0, id) != FR_NONE ||
-                         g_hash_table_contains(names->taken, id);
+    for (uint32_t k = 2;
+         fr_contents_find(mine, inside, id) != FR_NONE ||
+         fr_contents_find(theirs, 0, id) != FR_NONE || g_hash_table_contains(names->taken, id);
          k++) {
         g_free(id);
         id = g_strdup_printf("%.*s%u", (int)length, stem, k);
@@ -264,8 +264,10 @@ static void rename_attributes(const FrContents *theirs, uint32_t element, const 
         char *attribute = fr_param_attribute(row);
         char *old = fr_contents_get(theirs, element, attribute), *now = g_strdup(old);
         for (int tag = 0; old != NULL && tag < STUDIO_TAG_COUNT; tag++) {
-            if (may_name(row, old, (StudioTag)tag) && is_meant(theirs, element, (StudioTag)tag, names)) {
-                char *next = map_words(now, row->kind != FR_PARAM_TEXT, new_name, names->by_tag[tag]);
+            if (may_name(row, old, (StudioTag)tag) &&
+                is_meant(theirs, element, (StudioTag)tag, names)) {
+                char *next =
+                    map_words(now, row->kind != FR_PARAM_TEXT, new_name, names->by_tag[tag]);
                 g_free(now);
                 now = next;
             }
@@ -299,9 +301,10 @@ FrContents *studio_renamed(const FrContents *contents, const StudioNames *names)
     for (uint32_t i = 1; i < fr_contents_count(contents); i++) {
         StudioTag tag = studio_tag_of(contents, i);
         const char *id = fr_contents_at(contents, i)->id;
-        const char *name = tag == STUDIO_TAG_COUNT || id == NULL || !is_meant(contents, i, tag, names)
-                               ? NULL
-                               : g_hash_table_lookup(names->by_tag[tag], id);
+        const char *name =
+            tag == STUDIO_TAG_COUNT || id == NULL || !is_meant(contents, i, tag, names)
+                ? NULL
+                : g_hash_table_lookup(names->by_tag[tag], id);
         if (name != NULL) {
             FrSplice splice = fr_contents_set(contents, i, "id", name);
             g_array_append_val(splices, splice);

@@ -91,8 +91,7 @@ static char *plant_tag(const FrContents *contents, uint32_t plant, const char *i
     for (size_t r = 0; table != NULL && r < table->count; r++) {
         char *attribute = fr_param_attribute(&table->rows[r]);
         char *value = fr_contents_get(contents, plant, attribute);
-        char *pair =
-            value == NULL ? NULL : g_markup_printf_escaped(" %s=\"%s\"", attribute, value);
+        char *pair = value == NULL ? NULL : g_markup_printf_escaped(" %s=\"%s\"", attribute, value);
         g_string_append(tag, pair == NULL ? "" : pair);
         g_free(pair);
         g_free(value);
@@ -165,7 +164,8 @@ static void write_graph(const Cut *cut, GString *out) {
         }
     }
     if (!has_camera) {
-        char *link = studio_link_xml(camera, fr_contents_at(contents, cut->root)->id, FR_LINK_CHILD);
+        char *link =
+            studio_link_xml(camera, fr_contents_at(contents, cut->root)->id, FR_LINK_CHILD);
         add_line(out, indent, link);
         g_free(link);
     }
@@ -226,8 +226,8 @@ static void find_used(Cut *cut) {
     while (g_hash_table_iter_next(&all, &component, NULL)) {
         studio_add_used(cut->contents, cut->plant, GPOINTER_TO_UINT(component), cut->used);
     }
-    char *material = inherited_material(cut->contents, cut->graph, cut->root,
-                                        fr_contents_count(cut->contents));
+    char *material =
+        inherited_material(cut->contents, cut->graph, cut->root, fr_contents_count(cut->contents));
     uint32_t element = studio_tag_find(cut->contents, 0, STUDIO_TAG_MATERIAL, material);
     if (material != NULL && element != FR_NONE) {
         g_hash_table_add(cut->used, GUINT_TO_POINTER(element));
@@ -258,8 +258,8 @@ char *studio_subgraph_text(const StudioDocument *document, uint32_t plant, const
     if (root == FR_NONE || fr_contents_at(contents, root)->component < 0) {
         return NULL;
     }
-    Cut cut = {contents, plant, graph, root, g_hash_table_new(NULL, NULL),
-               g_hash_table_new(NULL, NULL)};
+    Cut cut = {
+        contents, plant, graph, root, g_hash_table_new(NULL, NULL), g_hash_table_new(NULL, NULL)};
     add_beneath(contents, graph, root, cut.components);
     find_used(&cut);
     char *reason = refusal_of(cut.components, contents);
@@ -401,8 +401,8 @@ static bool insert(StudioDocument *document, uint32_t plant, const FrContents *t
     const FrContents *mine = studio_document_contents(document);
     uint32_t graph = graph_of(theirs, their_plant), own = graph_of(mine, plant);
     uint32_t on = parent == NULL ? FR_NONE : fr_contents_find(mine, own, parent);
-    FrComponentKind kind = on == FR_NONE ? FR_COMPONENT_CAMERA
-                                         : (FrComponentKind)fr_contents_at(mine, on)->component;
+    FrComponentKind kind =
+        on == FR_NONE ? FR_COMPONENT_CAMERA : (FrComponentKind)fr_contents_at(mine, on)->component;
     GArray *roots = roots_of(theirs, graph);
     GArray *splices = g_array_new(FALSE, FALSE, sizeof(FrSplice));
     add_insertion(splices, mine, 0, studio_adopt_behind(mine),
@@ -467,10 +467,10 @@ bool studio_insert_subgraph(StudioDocument *document, uint32_t plant, FrSource *
         *id = NULL;
     }
     const FrContents *mine = studio_document_contents(document);
-    FrContents *theirs = studio_document_is_broken(document) || mine == NULL ||
-                                 graph_of(mine, plant) == FR_NONE
-                             ? NULL
-                             : read_silently(from);
+    FrContents *theirs =
+        studio_document_is_broken(document) || mine == NULL || graph_of(mine, plant) == FR_NONE
+            ? NULL
+            : read_silently(from);
     bool is_changed = false;
     if (theirs != NULL && why_not(theirs) == NULL) {
         StudioNames names;
@@ -479,8 +479,8 @@ bool studio_insert_subgraph(StudioDocument *document, uint32_t plant, FrSource *
         GHashTable *used = used_by(theirs, their_plant);
         name_clashes(&names, mine, plant, theirs, used);
         FrContents *renamed = studio_renamed(theirs, &names);
-        is_changed = renamed != NULL &&
-                     insert(document, plant, renamed, their_plant, parent, used, id);
+        is_changed =
+            renamed != NULL && insert(document, plant, renamed, their_plant, parent, used, id);
         fr_contents_free(renamed);
         g_hash_table_unref(used);
         studio_names_clear(&names);
