@@ -19,8 +19,8 @@ typedef struct Asked {
     AdwMessageDialog *dialog;
     GtkEditable *entry;
     GtkLabel *note;
-    char *what;        // component that is kept, or preset that is renamed
-    bool may_replace;  // what is called so
+    char *what;       // component that is kept, or preset that is renamed
+    bool may_replace; // what is called so
     const char *verb;
 } Asked;
 
@@ -63,8 +63,13 @@ static Asked *ask_name(StudioWindow *window, const char *heading, const char *bo
     GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(window), heading, body);
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
     GtkWidget *entry = gtk_entry_new(), *note = gtk_label_new("");
-    *asked = (Asked){window, ADW_MESSAGE_DIALOG(dialog), GTK_EDITABLE(entry), GTK_LABEL(note),
-                     g_strdup(what), false, verb};
+    *asked = (Asked){window,
+                     ADW_MESSAGE_DIALOG(dialog),
+                     GTK_EDITABLE(entry),
+                     GTK_LABEL(note),
+                     g_strdup(what),
+                     false,
+                     verb};
     gtk_entry_set_activates_default(GTK_ENTRY(entry), TRUE);
     gtk_widget_set_name(entry, "preset-name");
     gtk_accessible_update_property(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_PROPERTY_LABEL,
@@ -94,8 +99,8 @@ static void show_asked(Asked *asked, const char *name, GCallback answered) {
 
 static void keep(StudioWindow *window, const char *id, const char *name) {
     char *refusal, *folder = studio_presets_folder();
-    char *text = studio_subgraph_text(window->document, studio_window_plant(window), id, name,
-                                      &refusal);
+    char *text =
+        studio_subgraph_text(window->document, studio_window_plant(window), id, name, &refusal);
     FrDiags *diags = fr_diags_new();
     if (text == NULL) {
         studio_window_say(window, "%s", refusal != NULL ? refusal : "There is no such component");
@@ -188,7 +193,8 @@ static void do_remove(GSimpleAction *action, GVariant *parameter, gpointer data)
 
 // ---- putting one in ----------------------------------------------------------------------------
 
-// What a preset is put on if nothing is chosen: the Camera. Free with g_free(); NULL: there is none.
+// What a preset is put on if nothing is chosen: the Camera. Free with g_free(); NULL: there is
+// none.
 static char *camera_of(StudioWindow *window) {
     const FrContents *contents = studio_document_contents(window->document);
     uint32_t graph = studio_graph_of(window->document, studio_window_plant(window));
@@ -204,8 +210,7 @@ static void insert(StudioWindow *window, const char *name, const char *on) {
         file == NULL
             ? NULL
             : fr_source_load(file, fr_context_default().limits.document_bytes, NULL, &status);
-    const char *refusal =
-        source == NULL ? "It cannot be read" : studio_subgraph_refusal(source);
+    const char *refusal = source == NULL ? "It cannot be read" : studio_subgraph_refusal(source);
     if (refusal != NULL) {
         studio_window_say(window, "The preset %s is not put in: %s", name, refusal);
     } else if (studio_insert_subgraph(window->document, studio_window_plant(window), source,
@@ -254,10 +259,9 @@ static void ask_preset(StudioWindow *window, const char *on) {
     g_object_set_data_full(G_OBJECT(dialog), key_what, g_strdup(on), g_free);
     g_signal_connect(cards, "chosen", G_CALLBACK(on_chosen), window);
     GtkEventController *keys = gtk_shortcut_controller_new();
-    gtk_shortcut_controller_add_shortcut(
-        GTK_SHORTCUT_CONTROLLER(keys),
-        gtk_shortcut_new(gtk_keyval_trigger_new(GDK_KEY_Escape, 0),
-                         gtk_named_action_new("window.close")));
+    gtk_shortcut_controller_add_shortcut(GTK_SHORTCUT_CONTROLLER(keys),
+                                         gtk_shortcut_new(gtk_keyval_trigger_new(GDK_KEY_Escape, 0),
+                                                          gtk_named_action_new("window.close")));
     gtk_widget_add_controller(dialog, keys);
     gtk_window_present(GTK_WINDOW(dialog));
     g_free(where);
