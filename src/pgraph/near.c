@@ -1,5 +1,7 @@
 #include "pgraph/near.h"
 
+#include "pgraph/zorder.h"
+
 #include <glib.h>
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +10,7 @@
 // Cells farther out than this are one; no surface is so large in its own spacing.
 #define FARTHEST 1e9
 
-enum { FIRST_POINTS = 64, GROWTH = 4 };
+enum { FIRST_POINTS = 64, GROWTH = 2 };
 
 typedef struct Point {
     double at[3];
@@ -19,13 +21,16 @@ struct FrNear {
     Point *points;
     double area, width; // of the surface; of a cell
     uint32_t most, count, room;
-    uint32_t mask;         // of hashes; buckets are its successor
-    uint32_t *first;       // by bucket
-    double min[3], max[3]; // of the points
+    uint32_t mask;           // of hashes; buckets are its successor
+    uint32_t *first;         // by bucket
+    double min[3], max[3];   // of the points
+    int64_t low[3], high[3]; // cells of these
 };
 
 static int64_t cell_of(const FrNear *near, double at) {
-    return (int64_t)fmax(-FARTHEST, fmin(floor(at / near->width), FARTHEST));
+    double cell = floor(at / near->width);
+    return cell > -FARTHEST ? cell < FARTHEST ? (int64_t)cell : (int64_t)FARTHEST
+                            : (int64_t)-FARTHEST;
 }
 
 // Eight cells that touch have buckets side by side.
@@ -42,10 +47,29 @@ static void chain(FrNear *near, uint32_t index) {
     int64_t cell[3];
     for (int r = 0; r < 3; r++) {
         cell[r] = cell_of(near, point->at[r]);
+        near->low[r] = MIN(near->low[r], cell[r]);
+        near->high[r] = MAX(near->high[r], cell[r]);
     }
     uint32_t bucket = bucket_of(near, cell);
     point->next = near->first[bucket];
     near->first[bucket] = index;
+}
+
+// Lays the points so that those near each other are mostly side by side in memory.
+static void sort_points(FrNear *near) {
+    FrZorder order = fr_zorder(near->min, near->max);
+    uint64_t *items = g_new(uint64_t, 2 * (size_t)near->count);
+    for (uint32_t k = 0; k < near->count; k++) {
+        items[k] = fr_zorder_item(&order, near->points[k].at, k);
+    }
+    fr_zorder_sort(items, items + near->count, near->count);
+    Point *sorted = g_new(Point, near->most);
+    for (uint32_t k = 0; k < near->count; k++) {
+        sorted[k] = near->points[fr_zorder_number(items[k])];
+    }
+    g_free(items);
+    g_free(near->points);
+    near->points = sorted;
 }
 
 // Makes room for so many points, in cells a little wider than these will be apart: then the nearest
@@ -62,6 +86,11 @@ static void make_room(FrNear *near, uint32_t room) {
     for (uint32_t bucket = 0; bucket < buckets; bucket++) {
         near->first[bucket] = NO_POINT;
     }
+    for (int r = 0; r < 3; r++) {
+        near->low[r] = INT64_MAX;
+        near->high[r] = INT64_MIN;
+    }
+    sort_points(near);
     for (uint32_t k = 0; k < near->count; k++) {
         chain(near, k);
     }
@@ -69,8 +98,8 @@ static void make_room(FrNear *near, uint32_t room) {
 
 FrNear *fr_near_new(double area, uint32_t most) {
     FrNear *near = g_new0(FrNear, 1);
-    *near = (FrNear){.area = area, .most = most};
-    near->points = g_new(Point, MAX(most, 1));
+    *near = (FrNear){.area = area, .most = MAX(most, 1)};
+    near->points = g_new(Point, near->most);
     make_room(near, FIRST_POINTS);
     return near;
 }
@@ -81,6 +110,10 @@ void fr_near_free(FrNear *near) {
         g_free(near->points);
         g_free(near);
     }
+}
+
+void fr_near_settle(FrNear *near) {
+    make_room(near, MAX(near->count, FIRST_POINTS));
 }
 
 void fr_near_add(FrNear *near, const double at[3]) {
@@ -104,15 +137,15 @@ static double nearest_in(const FrNear *near, const int64_t cell[3], const double
             double off = point[r] - at[r];
             square += off * off;
         }
-        nearest = fmin(nearest, square);
+        nearest = square < nearest ? square : nearest;
     }
     return nearest;
 }
 
-// The cells from low to high that hold points at all, of those `ring` away from the middle one.
+// What is asked for.
 typedef struct Reach {
-    int64_t middle[3], low[3], high[3];
-    double inside[3]; ///< where the place is in the middle cell, 0 to 1 of its width
+    int64_t middle[3]; ///< cell of the place
+    double inside[3];  ///< where the place is in the middle cell, 0 to 1 of its width
     double enough;
 } Reach;
 
@@ -126,11 +159,11 @@ static double clear_of(const FrNear *near, const Reach *reach, int r, int64_t at
 // The cells of a row that are `ring` away, all of them if the row is; nearest before and after.
 static double nearest_in_row(const FrNear *near, const Reach *reach, int64_t cell[3], int64_t ring,
                              bool is_edge, double clear, const double at[3], double nearest) {
-    int64_t to = MIN(reach->middle[0] + ring, reach->high[0]);
+    int64_t to = MIN(reach->middle[0] + ring, near->high[0]);
     int64_t from = reach->middle[0] - ring;
-    from = is_edge ? MAX(from, reach->low[0]) : from;
+    from = is_edge ? MAX(from, near->low[0]) : from;
     for (cell[0] = from; cell[0] <= to; cell[0] += is_edge ? 1 : 2 * ring) {
-        if (cell[0] >= reach->low[0] && clear + clear_of(near, reach, 0, cell[0]) < nearest) {
+        if (cell[0] >= near->low[0] && clear + clear_of(near, reach, 0, cell[0]) < nearest) {
             nearest = nearest_in(near, cell, at, nearest);
         }
     }
@@ -141,8 +174,8 @@ static double nearest_in_ring(const FrNear *near, const Reach *reach, int64_t ri
                               const double at[3], double nearest) {
     int64_t from[3], to[3], cell[3];
     for (int r = 1; r < 3; r++) {
-        from[r] = MAX(reach->middle[r] - ring, reach->low[r]);
-        to[r] = MIN(reach->middle[r] + ring, reach->high[r]);
+        from[r] = MAX(reach->middle[r] - ring, near->low[r]);
+        to[r] = MIN(reach->middle[r] + ring, near->high[r]);
     }
     for (cell[2] = from[2]; cell[2] <= to[2]; cell[2]++) {
         double layer = clear_of(near, reach, 2, cell[2]);
@@ -161,8 +194,8 @@ static double nearest_in_ring(const FrNear *near, const Reach *reach, int64_t ri
     return nearest;
 }
 
-double fr_near_distance(const FrNear *near, const double at[3], double enough) {
-    double nearest = INFINITY;
+double fr_near_distance(const FrNear *near, const double at[3], double most, double enough) {
+    double nearest = most;
     if (near->count == 0) {
         return nearest;
     }
@@ -171,10 +204,8 @@ double fr_near_distance(const FrNear *near, const double at[3], double enough) {
     for (int r = 0; r < 3; r++) {
         reach.middle[r] = cell_of(near, at[r]);
         reach.inside[r] = at[r] / near->width - (double)reach.middle[r];
-        reach.low[r] = cell_of(near, near->min[r]);
-        reach.high[r] = cell_of(near, near->max[r]);
-        last = MAX(last, llabs(reach.high[r] - reach.middle[r]));
-        last = MAX(last, llabs(reach.middle[r] - reach.low[r]));
+        last = MAX(last, llabs(near->high[r] - reach.middle[r]));
+        last = MAX(last, llabs(reach.middle[r] - near->low[r]));
     }
     for (int64_t ring = 0; ring <= last; ring++) {
         double clear = (double)(ring - 1) * near->width;

@@ -2,8 +2,9 @@
 // Mitchell. Spectrally Optimal Sampling for Distribution Ray Tracing. SIGGRAPH 1991.
 #include "pgraph/strewn.h"
 
-#include "pgraph/near.h"
+#include "pgraph/farthest.h"
 
+#include <glib.h>
 #include <math.h>
 
 enum { MOST_TRIES = 256 }; // for a candidate
@@ -44,6 +45,20 @@ static bool reaches_heights(const FrStrewnSurface *surface, uint32_t triangle) {
     return high >= surface->least_height && low <= surface->most_height;
 }
 
+// Where to look for a part of the area: the first triangles of as many equal parts as there are
+// triangles.
+static void make_guide(FrStrewnSurface *surface, uint32_t count) {
+    surface->guide = g_new(uint32_t, (size_t)count + 1);
+    uint32_t t = 0;
+    for (uint32_t part = 0; part <= count; part++) {
+        double area = surface->area * ((double)part / count);
+        while (t + 1 < count && surface->below[t] <= area) {
+            t++;
+        }
+        surface->guide[part] = t;
+    }
+}
+
 void fr_strewn_init(FrStrewnSurface *surface) {
     uint32_t count = surface->file->index_count / 3;
     surface->below = g_new(double, count);
@@ -58,19 +73,26 @@ void fr_strewn_init(FrStrewnSurface *surface) {
         surface->area += is_fine ? 0.5 * size : 0;
         surface->below[t] = surface->area;
     }
+    make_guide(surface, count);
 }
 
 void fr_strewn_free(FrStrewnSurface *surface) {
     if (surface != NULL) {
         g_free(surface->below);
+        g_free(surface->guide);
         fr_image_unref(surface->map);
         g_free(surface);
     }
 }
 
-// The first triangle up to which there is more area than `area`.
-static uint32_t triangle_at(const FrStrewnSurface *surface, double area) {
-    uint32_t low = 0, high = surface->file->index_count / 3 - 1;
+// The first triangle up to which there is more than a part of the area.
+static uint32_t triangle_at(const FrStrewnSurface *surface, double part) {
+    uint32_t count = surface->file->index_count / 3;
+    uint32_t guess = MIN((uint32_t)(part * count), count - 1);
+    // A part that was rounded up or down may lie just outside.
+    uint32_t low = surface->guide[guess - (guess > 0)];
+    uint32_t high = surface->guide[MIN(guess + 2, count)];
+    double area = surface->area * part;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
         if (surface->below[middle] > area) {
@@ -89,55 +111,60 @@ static double brightness(const FrImage *map, double u, double v) {
     return (map->channels == 1 ? pixel[0] : (pixel[0] + pixel[1] + pixel[2]) / 3.0) / 255;
 }
 
-// Draws a point evenly by area; false if it is too low, too high or where the map is dark.
-static bool draw_once(const FrStrewnSurface *surface, FrKey key, uint32_t k, FrStrewnPoint *point) {
+// Draws a place evenly by area; false if it is too low, too high or where the map is dark.
+static bool draw_once(const FrStrewnSurface *surface, FrKey key, uint32_t k, double place[3],
+                      uint32_t *triangle) {
     const FrMeshFile *file = surface->file;
-    uint32_t t = triangle_at(surface, surface->area * fr_random(key, 0, k));
+    uint32_t t = *triangle = triangle_at(surface, fr_random(key, 0, k));
     double root = sqrt(fr_random(key, 1, k)), part = fr_random(key, 2, k);
     double weight[3] = {1 - root, root * (1 - part), root * part}, uv[2] = {0, 0};
-    *point = (FrStrewnPoint){0};
+    place[0] = place[1] = place[2] = 0;
     for (int c = 0; c < 3; c++) {
         double at[3];
         corner(file, t, c, at);
-        const float *own = file->uvs[file->indices[3 * t + (uint32_t)c]];
         for (int r = 0; r < 3; r++) {
-            point->at[r] += weight[c] * at[r];
+            place[r] += weight[c] * at[r];
         }
-        uv[0] += weight[c] * (double)own[0];
-        uv[1] += weight[c] * (double)own[1];
+        if (surface->map != NULL) {
+            const float *own = file->uvs[file->indices[3 * t + (uint32_t)c]];
+            uv[0] += weight[c] * (double)own[0];
+            uv[1] += weight[c] * (double)own[1];
+        }
     }
-    area_normal(file, t, point->normal);
-    double size = length_of(point->normal);
-    for (int r = 0; r < 3; r++) {
-        point->normal[r] = size > 0 ? point->normal[r] / size : r == 2;
-    }
-    return point->at[2] >= surface->least_height && point->at[2] <= surface->most_height &&
+    return place[2] >= surface->least_height && place[2] <= surface->most_height &&
            (surface->map == NULL || fr_random(key, 3, k) < brightness(surface->map, uv[0], uv[1]));
 }
 
-static void draw(const FrStrewnSurface *surface, FrKey key, FrStrewnPoint *point) {
+/// Draws a candidate; its triangle.
+static uint32_t draw(const FrStrewnSurface *surface, FrKey key, double place[3]) {
     bool is_drawn = false;
+    uint32_t triangle = 0;
     for (uint32_t k = 0; k < MOST_TRIES && !is_drawn; k++) {
-        is_drawn = draw_once(surface, key, k, point);
+        is_drawn = draw_once(surface, key, k, place, &triangle);
+    }
+    return triangle;
+}
+
+static void draw_candidate(const void *surface, FrKey key, uint32_t candidate, double at[3]) {
+    draw(surface, fr_key_child(key, candidate), at);
+}
+
+/// Puts a point where a candidate is.
+static void take(const FrStrewnSurface *surface, FrKey key, FrStrewnPoint *point) {
+    uint32_t triangle = draw(surface, key, point->at);
+    area_normal(surface->file, triangle, point->normal);
+    double size = length_of(point->normal);
+    for (int r = 0; r < 3; r++) {
+        point->normal[r] = size > 0 ? point->normal[r] / size : r == 2;
     }
 }
 
 void fr_strew(const FrStrewnSurface *surface, FrStrewnPoint *points, uint32_t count,
               uint32_t candidates, FrKey key, const FrProgress *progress) {
-    FrNear *near = fr_near_new(surface->area, count);
+    const FrCandidates drawn = {draw_candidate, surface, key, candidates, surface->area};
+    uint32_t *chosen = fr_choose_farthest(&drawn, count, progress);
     for (uint32_t i = 0; i < count; i++) {
-        candidates = i % 256 == 0 && fr_progress_is_cancelled(progress) ? 1 : candidates;
-        double best = -1;
-        for (uint32_t c = 0; c < candidates; c++) {
-            FrStrewnPoint point;
-            draw(surface, fr_key_child(fr_key_child(key, i), c), &point);
-            double distance = candidates > 1 ? fr_near_distance(near, point.at, best) : 0;
-            if (distance > best) {
-                best = distance;
-                points[i] = point;
-            }
-        }
-        fr_near_add(near, points[i].at);
+        take(surface, fr_key_child(fr_key_child(key, i), chosen[i]), &points[i]);
     }
-    fr_near_free(near);
+    g_free(chosen);
 }

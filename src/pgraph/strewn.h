@@ -11,9 +11,10 @@ typedef struct FrStrewnSurface {
     const FrMeshFile *file;
     double least_slope, most_slope; ///< radians between the surface's normal and z
     double least_height, most_height;
-    FrImage *map;  ///< owned reference; its brightness is the density; NULL: all alike
-    double *below; ///< area of triangles up to each; owned
-    double area;   ///< of all that are as steep and lie as high as wanted
+    FrImage *map;    ///< owned reference; its brightness is the density; NULL: all alike
+    double *below;   ///< area of triangles up to each; owned
+    uint32_t *guide; ///< owned: the triangle up to which there is more than k / count of the area
+    double area;     ///< of all that are as steep and lie as high as wanted
 } FrStrewnSurface;
 
 /// Sums the areas; the rest has been set.

@@ -152,23 +152,44 @@ static void push_fork(const FrRamified *ramified, const FrTwig *twig, const uint
     g_array_append_val(waiting, onward);
 }
 
-/// Internodes and tips of the tree; stops counting above `most`.
-static uint64_t count_tree(const FrRamified *ramified, uint64_t seed, uint64_t most,
-                           const FrContext *context, uint64_t *tips) {
+/// How much a tree has.
+typedef struct FrRamifiedCount {
+    uint64_t nodes, tips;
+} FrRamifiedCount;
+
+/// What every tree has at least: strands are divided until each is alone, and a branch of order k
+/// bears two of order k − 1 or goes on as k.
+static FrRamifiedCount least_count(const FrRamified *ramified) {
+    FrTwig stem = stem_of(ramified, 0);
+    uint64_t tips = ramified->params.by == FR_RAMIFIED_STRANDS
+                        ? MAX(stem.weight, 1)
+                        : UINT64_C(1) << (MAX(stem.weight, 1) - 1);
+    return (FrRamifiedCount){2 * tips - 1, tips};
+}
+
+/// Follows all forks without their angles; stops counting above `most` internodes.
+static FrRamifiedCount count_tree(const FrRamified *ramified, uint64_t seed, uint64_t most,
+                                  const FrContext *context) {
+    if (ramified->params.by == FR_RAMIFIED_STRANDS) {
+        return least_count(ramified);
+    }
     GArray *waiting = g_array_new(FALSE, FALSE, sizeof(FrTwig));
     FrTwig twig = stem_of(ramified, seed);
     g_array_append_val(waiting, twig);
-    uint64_t count = 0;
-    *tips = 0;
-    while (waiting->len > 0 && count <= most && !fr_progress_is_cancelled(context->progress)) {
+    FrRamifiedCount count = {0, 0};
+    while (waiting->len > 0 && count.nodes <= most &&
+           !fr_progress_is_cancelled(context->progress)) {
         twig = g_array_index(waiting, FrTwig, waiting->len - 1);
         g_array_set_size(waiting, waiting->len - 1);
         uint32_t weights[2];
-        count++;
+        count.nodes++;
         if (fork_into(ramified, &twig, weights)) {
-            push_fork(ramified, &twig, weights, FR_NONE, FR_NONE, waiting);
+            for (uint32_t k = 2; k-- > 0;) {
+                FrTwig child = {.key = fr_key_child(twig.key, k), .weight = weights[k]};
+                g_array_append_val(waiting, child);
+            }
         } else {
-            (*tips)++;
+            count.tips++;
         }
     }
     g_array_unref(waiting);
@@ -268,26 +289,36 @@ static void make_plant(FrRamifying *ramifying, uint64_t seed) {
     g_array_unref(waiting);
 }
 
+static FrStatus check_count(const FrRamified *ramified, const char *name, FrRamifiedCount count,
+                            const FrContext *context) {
+    const FrLimits *limits = &context->limits;
+    FrStatus status =
+        fr_limit_check(count.nodes, limits->nodes, "nodes", name, ramified->span, context->diags);
+    uint64_t organs = fr_count_multiply(count.tips, (uint64_t)ramified->params.leaves);
+    return status == FR_OK ? fr_limit_check(organs, limits->organs, "organs", name, ramified->span,
+                                            context->diags)
+                           : status;
+}
+
 FrStatus fr_ramified_grow(const FrRamified *ramified, const char *name, uint64_t seed,
                           const FrContext *context, FrPlant **plant) {
     *plant = NULL;
     const FrRamifiedParams *params = &ramified->params;
-    uint64_t tips, most = context->limits.nodes;
-    uint64_t nodes = count_tree(ramified, seed, most, context, &tips);
+    FrRamifiedCount count = least_count(ramified);
+    FrStatus status = check_count(ramified, name, count, context);
+    if (status != FR_OK) {
+        return status;
+    }
+    count = count_tree(ramified, seed, context->limits.nodes, context);
     if (fr_progress_is_cancelled(context->progress)) {
         return FR_CANCELLED;
     }
-    FrStatus status = fr_limit_check(nodes, most, "nodes", name, ramified->span, context->diags);
-    if (status == FR_OK) {
-        status =
-            fr_limit_check(fr_count_multiply(tips, (uint64_t)params->leaves),
-                           context->limits.organs, "organs", name, ramified->span, context->diags);
-    }
+    status = check_count(ramified, name, count, context);
     if (status != FR_OK) {
         return status;
     }
     FrRamifying ramifying = {.ramified = ramified, .plant = fr_plant_new(name)};
-    fr_plant_reserve(ramifying.plant, (uint32_t)nodes, (uint32_t)tips);
+    fr_plant_reserve(ramifying.plant, (uint32_t)count.nodes, (uint32_t)count.tips);
     begin_plant(&ramifying);
     make_plant(&ramifying, seed);
     fr_plant_weigh(ramifying.plant, (FrWeights)(params->weights + 1), params->thinnest,

@@ -171,6 +171,27 @@ static void limits(void) {
     fr_diags_free(context.diags);
 }
 
+static void refused_at_once(void) {
+    // What every such tree has at least is counted without following a fork: with this order that
+    // would take minutes.
+    for (int strands = 0; strands < 2; strands++) {
+        FrContext context = fr_context_default();
+        context.diags = fr_diags_new();
+        context.limits.nodes = UINT64_C(1) << 29;
+        FrRamifiedParams params = defaults(strands ? FR_RAMIFIED_STRANDS : FR_RAMIFIED_RANDOM, 30);
+        params.strands = 100000000;
+        params.leaves = strands ? 1 : 0;
+        FrRamified *ramified = made(&params, NULL, FR_OK);
+        FrPlant *plant;
+        g_assert_cmpint(fr_ramified_grow(ramified, "tree", 1, &context, &plant), ==, FR_ERR_LIMIT);
+        const char *text = fr_diags_get(context.diags, 0)->text;
+        g_assert_nonnull(strstr(text, strands ? "100000000" : "1073741823"));
+        g_assert_nonnull(strstr(text, strands ? "'organs'" : "'nodes'"));
+        fr_ramified_free(ramified);
+        fr_diags_free(context.diags);
+    }
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/variation/ramified/a perfect tree of order n has 2^(n-1) tips", perfect);
@@ -180,5 +201,6 @@ int main(int argc, char **argv) {
     g_test_add_func("/variation/ramified/the heavier branch deviates less", deviations);
     g_test_add_func("/variation/ramified/matrices that are none are told", wrong);
     g_test_add_func("/variation/ramified/endless trees are refused", limits);
+    g_test_add_func("/variation/ramified/too high an order is refused at once", refused_at_once);
     return g_test_run();
 }
