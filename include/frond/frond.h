@@ -5,3 +5,4 @@
 #include "frond/io.h"
 #include "frond/rebuild.h"
 #include "frond/render.h"
+#include "frond/shading.h"

@@ -25,6 +25,10 @@ void fr_film_free(FrFilm *film);
 vec3s *fr_film_denoise(const FrFilm *film, const FrContext *context);
 /// The factor that exposes `light` well; `white` is the luminance of white ground in full light.
 float fr_film_exposure(const FrFilm *film, const vec3s *light, float white);
+/// The same for a picture whose mean is known already.
+float fr_film_exposure_of(double picture, float white);
+/// What makes `light` white, or nearly: multiplies the colours.
+vec3s fr_film_balance(vec3s light);
 /// Develops light times `exposure` to 8-bit sRGB. `balance` multiplies the colours first.
 FrImage *fr_film_develop(const FrFilm *film, const vec3s *light, float exposure, vec3s balance);
 /// The tone curve for one colour: linear scene light, 0.18 mid grey, to sRGB-encoded 0 … 1.

@@ -11,6 +11,8 @@
 
 // Pictures count light in parts of the sun's outside the atmosphere, W/m².
 #define SOLAR_CONSTANT 1361.0
+// How often the walls of a light room see the light of its lamps.
+#define LAMPLIGHT 2.5f
 
 /// The lamp's colour, of luminance 1.
 static vec3s tint_of(const FrLampParams *params) {
@@ -59,6 +61,12 @@ FrLampSet fr_lamps_new(const FrSurroundings *surroundings, const double origin[3
         set.lamps[i].chance /= power;
     }
     return set;
+}
+
+vec3s fr_lamps_light(const FrLampSet *set, vec3s size) {
+    float surface = 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x);
+    bool is_room = surface > 1e-6f && isfinite(surface);
+    return glms_vec3_scale(set->power, LAMPLIGHT / (is_room ? surface : 1.0f));
 }
 
 void fr_lamps_clear(FrLampSet *set) {

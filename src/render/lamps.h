@@ -34,6 +34,9 @@ typedef struct FrLampSight {
 
 /// `origin` is the world's.
 FrLampSet fr_lamps_new(const FrSurroundings *surroundings, const double origin[3]);
+/// What the lamps bring to the walls of a light room of that size, thrown to and fro by them, on
+/// the whole.
+vec3s fr_lamps_light(const FrLampSet *set, vec3s size);
 void fr_lamps_clear(FrLampSet *set);
 /// Looks from a point to a point of a lamp.
 FrLampSight fr_lamps_sample(const FrLampSet *set, vec3s point, float choice, float u, float v);

@@ -17,8 +17,6 @@ enum { TILE = 16, FILTER_STEPS = 64 };
 #define FILTER_RADIUS 1.5f
 // Distant ground is hazy from so many camera distances on.
 #define HAZE_DISTANCES 16.0f
-// How far colours are balanced towards the light that falls into the picture being white.
-#define BALANCE_PART 0.75f
 
 #define FR_PARAM_STRUCT FrRenderParams
 static const FrParam render_rows[] = {FR_RENDER_PARAMS(FR_PARAM_ROW)};
@@ -182,17 +180,6 @@ FrStatus fr_render_find_view(const FrScene *scene, const char *name, const FrCon
     return *view != NULL ? FR_OK : FR_ERR_USAGE;
 }
 
-static vec3s white_balance(vec3s light) {
-    float mean = fr_luminance(light);
-    vec3s balance = glms_vec3_one();
-    for (int c = 0; c < 3; c++) {
-        if (light.raw[c] > 1e-3f * mean) {
-            balance.raw[c] = powf(mean / light.raw[c], BALANCE_PART);
-        }
-    }
-    return balance;
-}
-
 FrStatus fr_render_world(FrWorld *world, const FrViewParams *view, double stops,
                          const FrRenderParams *params, const FrContext *context, FrImage **image) {
     uint32_t width = (uint32_t)params->width;
@@ -220,7 +207,7 @@ FrStatus fr_render_world(FrWorld *world, const FrViewParams *view, double stops,
     if (light != NULL) {
         float white = fr_luminance(world->white) / FR_PI_F;
         float exposure = fr_film_exposure(job.film, light, white) * (float)exp2(stops);
-        *image = fr_film_develop(job.film, light, exposure, white_balance(world->white));
+        *image = fr_film_develop(job.film, light, exposure, fr_film_balance(world->white));
         status = FR_OK;
     }
     g_free(light);

@@ -15,7 +15,7 @@
 #define STANDARD_COLOUR ((vec3s){{0.93f, 1.0f, 1.13f}})
 #define STANDARD_SUN ((vec3s){{1.08f, 0.99f, 0.86f}})
 
-enum { SKY_COLUMNS = 256, SKY_ROWS = 512, BLOCK = 4 };
+enum { SKY_COLUMNS = 256, SKY_ROWS = 512, COARSENESS = 8, BLOCK = 4 };
 
 static FrSky *new_table(uint32_t columns, uint32_t rows) {
     FrSky *sky = g_new0(FrSky, 1);
@@ -235,8 +235,9 @@ static void fill_standard(Fill *fill, const FrSceneParams *params, const FrConte
     fr_sky_set_sun(sky, sky->sun_direction, sunlight);
 }
 
-FrSky *fr_sky_new(const FrSceneParams *params, bool has_ground, const FrContext *context) {
-    FrSky *sky = new_table(SKY_COLUMNS, SKY_ROWS);
+static FrSky *new_filled(uint32_t columns, uint32_t rows, const FrSceneParams *params,
+                         bool has_ground, const FrContext *context) {
+    FrSky *sky = new_table(columns, rows);
     sky->sun_direction = fr_light_sun_direction(params->sun_azimuth, params->sun_elevation);
     Fill fill = {.sky = sky, .strength = 1};
     if (params->sky == FR_SCENE_SKY_AIR) {
@@ -249,6 +250,14 @@ FrSky *fr_sky_new(const FrSceneParams *params, bool has_ground, const FrContext 
     }
     make_distribution(sky);
     return sky;
+}
+
+FrSky *fr_sky_new(const FrSceneParams *params, bool has_ground, const FrContext *context) {
+    return new_filled(SKY_COLUMNS, SKY_ROWS, params, has_ground, context);
+}
+
+FrSky *fr_sky_new_coarse(const FrSceneParams *params, bool has_ground, const FrContext *context) {
+    return new_filled(SKY_COLUMNS / COARSENESS, SKY_ROWS / COARSENESS, params, has_ground, context);
 }
 
 static size_t block_of(const FrSky *sky, vec3s direction) {

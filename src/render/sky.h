@@ -23,6 +23,8 @@ typedef struct FrSky {
 
 /// The sky of the scene's parameters. With a ground nothing comes from below the horizon.
 FrSky *fr_sky_new(const FrSceneParams *params, bool has_ground, const FrContext *context);
+/// The same in few cells, made in a 64th of the time: for what falls onto matt surfaces.
+FrSky *fr_sky_new_coarse(const FrSceneParams *params, bool has_ground, const FrContext *context);
 /// The same radiance from everywhere above, and from below if `is_sphere`; no sun.
 FrSky *fr_sky_new_uniform(vec3s radiance, bool is_sphere);
 void fr_sky_free(FrSky *sky);

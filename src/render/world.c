@@ -6,8 +6,6 @@
 #include <math.h>
 
 #define GROUND_VARIATION 0.6f
-// How often the walls of a light room see the light of its lamps.
-#define LAMPLIGHT 2.5f
 
 // Embree asks from any thread; only reads.
 static bool is_hole(void *user, uint32_t mesh, uint32_t part, uint32_t triangle, float u, float v) {
@@ -70,8 +68,8 @@ void fr_world_add_stand(FrWorld *world, uint32_t mesh, mat4s transform) {
     fr_rays_add_stand(world->rays, mesh, transform);
 }
 
-/// Square metres of the box around everything that stands in the world.
-static float surface_of(const FrWorld *world) {
+/// Of the box around everything that stands in the world.
+static vec3s size_of(const FrWorld *world) {
     vec3s min = {{INFINITY, INFINITY, INFINITY}}, max = glms_vec3_negate(min);
     for (guint i = 0; i < world->stands->len; i++) {
         const FrWorldStand *stand = &g_array_index(world->stands, FrWorldStand, i);
@@ -86,17 +84,14 @@ static float surface_of(const FrWorld *world) {
             max = glms_vec3_maxv(max, at);
         }
     }
-    vec3s size = glms_vec3_sub(max, min);
-    float surface = 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x);
-    return surface > 1e-6f && isfinite(surface) ? surface : 1.0f;
+    return glms_vec3_sub(max, min);
 }
 
 void fr_world_commit(FrWorld *world) {
     fr_rays_commit(world->rays);
     world->white = world->sky->flat_irradiance;
     if (world->lamps.count > 0) {
-        float spread = LAMPLIGHT / surface_of(world);
-        world->white = glms_vec3_muladds(world->lamps.power, spread, world->white);
+        world->white = glms_vec3_add(world->white, fr_lamps_light(&world->lamps, size_of(world)));
     }
 }
 

@@ -201,6 +201,20 @@ static void picture(Drive *drive, char *const *words, const char *rest) {
     answer("%s", studio_picture_save(GTK_WIDGET(drive->window), rest) ? "ok" : "error no picture");
 }
 
+// At the coordinates of `where`: those of the window's surface.
+static void colour(Drive *drive, char *const *words, const char *rest) {
+    (void)rest;
+    double shift_x, shift_y;
+    uint8_t rgb[3];
+    gtk_native_get_surface_transform(GTK_NATIVE(drive->window), &shift_x, &shift_y);
+    if (studio_picture_colour(GTK_WIDGET(drive->window), atoi(words[1]) - (int)shift_x,
+                              atoi(words[2]) - (int)shift_y, rgb)) {
+        answer("%d %d %d", rgb[0], rgb[1], rgb[2]);
+    } else {
+        answer("error that is outside");
+    }
+}
+
 static void write_text(Drive *drive, char *const *words, const char *rest) {
     (void)words;
     size_t size;
@@ -312,6 +326,7 @@ static const struct {
     {"where", where, 2, false},
     {"write", write_text, 2, false},
     {"picture", picture, 2, false},
+    {"colour", colour, 3, false},
     {"picture-of-dialog", picture_of_dialog, 2, false},
     {"close-dialog", close_dialog, 1, false},
     {"state", state, 1, false},

@@ -15,6 +15,7 @@
 ///   where NAME             answers X Y WIDTH HEIGHT of a widget, or of the box of a component;
 ///                        at:X,Y,Z is a point of the scene
 ///   write FILE             the text as it is, to a file that the document does not have then
+///   colour X Y             answers R G B of what is shown there, as `where` counts
 ///   picture FILE           writes a PNG of the window
 ///   picture-of-dialog FILE, close-dialog    the same of the dialog above it, which goes
 ///   keep, restore          writes the copy for a crash; opens what a crash has left

@@ -97,6 +97,10 @@ class Studio:
         """Where a point of the scene is seen."""
         return self.where("at:%g,%g,%g" % place)[:2]
 
+    def colour(self, point):
+        """Red, green and blue of what is shown there."""
+        return [int(part) for part in self.ask("colour %d %d" % tuple(point)).split()]
+
     def text(self, home):
         """The document as it is now."""
         copy = os.path.join(home, "as-it-is.frond")

@@ -277,22 +277,51 @@ static void test_pictures(Fixture *fixture, gconstpointer data) {
     g_assert_cmpuint(looks, >, 0);
     studio_builder_release(fixture->builder);
     StudioPicture picture;
-    for (int i = 0; i < 60000 && pictures < looks; i++) {
+    guint maps[FR_MAP_COUNT] = {0};
+    for (int i = 0; i < 60000 && studio_builder_is_painting(fixture->builder); i++) {
         if (studio_builder_take_picture(fixture->builder, &picture)) {
             pictures++;
+            maps[picture.map] += picture.image != NULL;
             fr_image_unref(picture.image);
         } else {
             g_usleep(1000);
         }
     }
-    g_assert_cmpuint(pictures, ==, looks);
-    g_assert_false(studio_builder_is_painting(fixture->builder));
+    while (studio_builder_take_picture(fixture->builder, &picture)) {
+        pictures++;
+        maps[picture.map] += picture.image != NULL;
+        fr_image_unref(picture.image);
+    }
+    g_assert_cmpuint(pictures, ==, FR_MAP_COUNT * looks);
+    g_assert_cmpuint(maps[FR_MAP_NORMAL], >, 0);
+    g_assert_cmpuint(maps[FR_MAP_ROUGHNESS], >, 0);
     // The same looks are not painted again.
     studio_set(document, first_plant(document), "seed", "77", false);
     request(fixture, document, NAN);
     await(fixture);
     studio_builder_release(fixture->builder);
     g_assert_false(studio_builder_is_painting(fixture->builder));
+    studio_document_free(document);
+}
+
+static float red_of(const StudioBuilt *built) {
+    g_assert_cmpuint(built->view->shading.lamp_count, ==, 1);
+    vec3s light = built->view->shading.lamps[0].intensity;
+    return light.r / light.b;
+}
+
+static void test_lamps(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    static const char text[] = "<frond version='1'><plant id='p'><pgraph><horn id='h'/></pgraph>"
+                               "</plant><scene><lamp id='bulb' colour='#ffffff'/></scene></frond>";
+    StudioDocument *document = studio_document_new(text, sizeof text - 1, "lamps.frond", "");
+    request(fixture, document, NAN);
+    float before = red_of(await(fixture));
+    studio_builder_release(fixture->builder);
+    studio_set(document, element_of(document, "bulb"), "colour", "#ff4040", false);
+    request(fixture, document, NAN);
+    g_assert_cmpfloat(red_of(await(fixture)), >, 2 * before);
+    studio_builder_release(fixture->builder);
     studio_document_free(document);
 }
 
@@ -311,6 +340,7 @@ int main(int argc, char **argv) {
     ADD("/studio/builder/a long build can be stopped", test_cancel);
     ADD("/studio/builder/another time moves no place of a diagnostic", test_time);
     ADD("/studio/builder/what grows bud by bud is taken forth and back", test_growth);
-    ADD("/studio/builder/pictures are made once", test_pictures);
+    ADD("/studio/builder/maps of materials are made once", test_pictures);
+    ADD("/studio/builder/the light of a view is that of the lamps as they are", test_lamps);
     return g_test_run();
 }

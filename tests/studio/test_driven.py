@@ -59,6 +59,18 @@ ROOM = """<frond version="1">
 """
 
 
+BULBS = """<frond version="1">
+  <plant id="p"><pgraph><horn id="h" length="0.6" radius="0.1"/></pgraph></plant>
+  <scene sun-strength="0" sky-strength="0">
+    <lamp id="red" at="-1, -0.5, 0.3" colour="#ff6060"/>
+    <lamp id="blue" at="1, -0.5, 0.3" colour="#6060ff"/>
+    <place plant="p"/>
+    <view name="front" azimuth="0" elevation="0"/>
+  </scene>
+</frond>
+"""
+
+
 GROVE = """<frond version="1">
   <plant id="tree">
     <species leaf-length="0.3" leaf-width="0.2"/>
@@ -409,6 +421,24 @@ def test_light(run):
     assert state["digest"] == before and state["steps"] == 0, state
 
 
+def test_lamps(run):
+    """lamps of the document light the picture from where they hang"""
+    studio = run.studio
+    file = os.path.join(run.home, "bulbs.frond")
+    with open(file, "w", encoding="utf-8") as out:
+        out.write(BULBS)
+    studio.ask("size 900 600")
+    studio.ask(f"open {file}")
+    run.picture("lamps")
+    left, right = (studio.colour(studio.point(x, 0, 0.3)) for x in (-0.03, 0.03))
+    assert left[0] > left[2] + 20, f"the left is not red: {left}"
+    assert right[2] > right[0] + 20, f"the right is not blue: {right}"
+    studio.ask("do set::red.power=0")
+    studio.wait()
+    assert max(studio.colour(studio.point(-0.03, 0, 0.3))) < max(left), "no lamp, and as bright"
+    studio.ask("size 1440 900")
+
+
 def sketched(run):
     return json.loads(run.studio.ask("sketch"))
 
@@ -580,7 +610,7 @@ def test_killed(run):
     assert run.studio.quit() == 0
 
 
-TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_light, test_sketch,
+TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_light, test_lamps, test_sketch,
          test_device, test_flower, test_link, test_preset, test_slider, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 

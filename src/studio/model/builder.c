@@ -52,6 +52,8 @@ struct StudioBuilder {
     StudioGrower *grower;
     FrPool *pool;
     StudioView *view;
+    FrShading shading;    // of the view …
+    FrDigest shaded;      // … and of what that depends on
     const FrScene *scene; // what is shown and can be picked from while nothing runs; NULL
 };
 
@@ -135,9 +137,20 @@ static bool is_same_wood(const FrSkin *skin) {
     return true;
 }
 
+// The light of the scene, anew where it has changed.
+static void shade(StudioBuilder *builder, StudioView *view, const FrContext *context) {
+    FrDigest digest = fr_shading_digest(view->scene);
+    if (builder->view == NULL || builder->shaded != digest) {
+        builder->shading = fr_shading_of(view->scene, context);
+        builder->shaded = digest;
+    }
+    view->shading = builder->shading;
+}
+
 // Takes a new view; large ones get what is drawn while they move, taken over where no wood changed.
 static void adopt_view(StudioBuilder *builder, StudioView *view, const FrContext *context) {
     StudioView *old = builder->view;
+    shade(builder, view, context);
     for (guint i = 0; old != NULL && i < MIN(old->plants->len, view->plants->len); i++) {
         StudioPlant *from = g_ptr_array_index(old->plants, i);
         StudioPlant *to = g_ptr_array_index(view->plants, i);

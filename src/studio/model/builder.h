@@ -38,9 +38,10 @@ typedef struct StudioBuilt {
     bool is_forgotten;         ///< asked for before studio_builder_forget()
 } StudioBuilt;
 
-/// A material's picture of colours.
+/// A map of a material.
 typedef struct StudioPicture {
-    FrDigest digest;
+    FrDigest digest; ///< of the look
+    FrMap map;
     FrImage *image;  ///< a reference; NULL: it has none
     bool is_clamped; ///< not repeated: leaves
 } StudioPicture;

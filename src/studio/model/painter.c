@@ -15,6 +15,22 @@ struct StudioPainter {
     gint open; // atomic: orders that are not ready
 };
 
+static void paint(StudioPainter *painter, const Order *order, FrMap map) {
+    FrContext context = fr_context_default();
+    context.progress = painter->progress;
+    FrStatus status = FR_OK;
+    const FrImage *image = fr_progress_is_cancelled(painter->progress)
+                               ? NULL
+                               : fr_material_image(order->material, map, &context, &status);
+    int texture = fr_material_params(order->material)->texture;
+    StudioPicture *picture = g_new(StudioPicture, 1);
+    *picture =
+        (StudioPicture){order->digest, map, image == NULL ? NULL : fr_image_ref((FrImage *)image),
+                        texture == FR_TEXTURE_LEAF || texture == FR_TEXTURE_PETAL};
+    g_async_queue_push(painter->ready, picture);
+    painter->wake(painter->user);
+}
+
 static gpointer run(gpointer data) {
     StudioPainter *painter = data;
     for (;;) {
@@ -23,21 +39,11 @@ static gpointer run(gpointer data) {
             g_free(order);
             return NULL;
         }
-        FrContext context = fr_context_default();
-        context.progress = painter->progress;
-        FrStatus status = FR_OK;
-        const FrImage *image =
-            fr_progress_is_cancelled(painter->progress)
-                ? NULL
-                : fr_material_image(order->material, FR_MAP_COLOUR, &context, &status);
-        int texture = fr_material_params(order->material)->texture;
-        StudioPicture *picture = g_new(StudioPicture, 1);
-        *picture =
-            (StudioPicture){order->digest, image == NULL ? NULL : fr_image_ref((FrImage *)image),
-                            texture == FR_TEXTURE_LEAF || texture == FR_TEXTURE_PETAL};
+        for (int map = 0; map < FR_MAP_COUNT; map++) {
+            paint(painter, order, (FrMap)map);
+        }
         fr_material_unref(order->material);
         g_free(order);
-        g_async_queue_push(painter->ready, picture);
         g_atomic_int_add(&painter->open, -1);
         painter->wake(painter->user);
     }

@@ -146,6 +146,8 @@ static StudioLook look_of(FrMaterial *material) {
         .alpha_cutoff = (float)params->alpha_cutoff,
         .translucency = (float)params->translucency,
         .roughness = (float)params->roughness,
+        .relief = (float)params->relief,
+        .mirror = (float)params->mirror,
     };
 }
 

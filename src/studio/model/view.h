@@ -4,6 +4,7 @@
 #pragma once
 
 #include "frond/rebuild.h"
+#include "frond/shading.h"
 
 /// 32 bytes, as a graphics card takes it.
 typedef struct StudioLeaf {
@@ -29,7 +30,7 @@ typedef struct StudioLook {
     FrDigest digest;       ///< of all that its pictures depend on
     float tint[3];         ///< linear; of what has no picture
     float picture_tint[3]; ///< linear; multiplies the picture
-    float alpha_cutoff, translucency, roughness;
+    float alpha_cutoff, translucency, roughness, relief, mirror;
 } StudioLook;
 
 /// A point of the skeleton: lines run from each first to each second of a pair.
@@ -55,6 +56,7 @@ typedef struct StudioPlant {
 typedef struct StudioView {
     const FrScene *scene; ///< borrowed
     GPtrArray *plants;    ///< StudioPlant *, as many as the scene has
+    FrShading shading;    ///< the light that it is shown in; set by who shows it
 } StudioView;
 
 /// All but coarse_wood, of what a rebuild holds; borrowed from it until its next update.

@@ -1,8 +1,10 @@
 #include "studio/view/renderer.h"
 
 #include "studio/view/overlays.h"
+#include "studio/view/piece.h"
 #include "studio/view/program.h"
 #include "studio/view/shaders.h"
+#include "studio/view/surface_shader.h"
 #include "studio/view/target.h"
 
 #include <math.h>
@@ -43,6 +45,7 @@ typedef struct Shot {
     const StudioRenderer *renderer;
     const StudioDisplay *display;
     mat4s clip;
+    float eye[3];
     float near, far, reach;
     double radius;
 } Shot;
@@ -134,54 +137,12 @@ void studio_renderer_invalidate(StudioRenderer *renderer, bool is_geometry) {
     renderer->is_shadow_old = renderer->is_shadow_old || is_geometry;
 }
 
-// ---- pieces ------------------------------------------------------------------------------------
-
-static void attribute(GLuint index, GLint size, size_t stride, size_t offset, GLuint divisor) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, (GLsizei)stride,
-                          (const void *)(uintptr_t)offset);
-    glVertexAttribDivisor(index, divisor);
-}
-
-static void draw_piece(GLuint program, const StudioPiece *piece) {
-    glBindBuffer(GL_ARRAY_BUFFER, piece->vertices);
-    attribute(0, 3, sizeof(FrVertex), offsetof(FrVertex, position), 0);
-    attribute(1, 3, sizeof(FrVertex), offsetof(FrVertex, normal), 0);
-    attribute(2, 2, sizeof(FrVertex), offsetof(FrVertex, uv), 0);
-    if (piece->leaves != 0) {
-        size_t first = piece->first_leaf * sizeof(StudioLeaf);
-        glBindBuffer(GL_ARRAY_BUFFER, piece->leaves);
-        attribute(3, 4, sizeof(StudioLeaf), first, 1);
-        attribute(4, 4, sizeof(StudioLeaf), first + offsetof(StudioLeaf, turn), 1);
-    } else {
-        glDisableVertexAttribArray(3);
-        glDisableVertexAttribArray(4);
-        glVertexAttrib4f(3, 0, 0, 0, 1);
-        glVertexAttrib4f(4, 0, 0, 0, 1);
-    }
-    studio_program_matrix(program, "model", &piece->model);
-    studio_program_float(program, "enlarge", piece->enlarge);
-    studio_program_vec3(program, "tint", piece->tint);
-    studio_program_float(program, "cutoff", piece->cutoff);
-    studio_program_float(program, "translucency", piece->translucency);
-    studio_program_int(program, "has_picture", piece->picture != 0);
-    studio_program_int(program, "is_blade", piece->is_blade);
-    studio_program_int(program, "is_leaf", piece->leaves != 0);
-    studio_program_int(program, "is_still", piece->is_still);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, piece->picture);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, piece->indices);
-    const void *first = (const void *)(uintptr_t)(piece->first_index * sizeof(uint32_t));
-    if (piece->leaves != 0) {
-        glDrawElementsInstanced(GL_TRIANGLES, (GLsizei)piece->index_count, GL_UNSIGNED_INT, first,
-                                (GLsizei)piece->leaf_count);
-    } else {
-        glDrawElements(GL_TRIANGLES, (GLsizei)piece->index_count, GL_UNSIGNED_INT, first);
-    }
-}
+// ---- what is the same for all pieces ------------------------------------------------------------
 
 static bool shows_shadow(const Shot *shot) {
-    return shot->display->has_shadow && shot->renderer->has_shadow_map;
+    const FrShading *shading = studio_store_shading(shot->renderer->store);
+    bool shines = shading->sun.r + shading->sun.g + shading->sun.b > 0;
+    return shines && shot->display->has_shadow && shot->renderer->has_shadow_map;
 }
 
 static void use_shadow(const Shot *shot, GLuint program) {
@@ -203,18 +164,14 @@ static void use_wind(const Shot *shot, GLuint program) {
 }
 
 static GLuint begin_surfaces(const Shot *shot) {
-    static const float sun_colour[3] = {2.5f, 2.3f, 1.95f};
-    static const float sky[3] = {0.62f, 0.74f, 0.92f}, ground[3] = {0.26f, 0.24f, 0.20f};
     GLuint program = shot->renderer->surface;
     float sun[3];
     studio_store_sun(shot->renderer->store, sun);
     glUseProgram(program);
     studio_program_matrix(program, "clip", &shot->clip);
+    studio_program_vec3(program, "eye", shot->eye);
     studio_program_vec3(program, "sun", sun);
-    studio_program_vec3(program, "sun_colour", sun_colour);
-    studio_program_vec3(program, "sky_colour", sky);
-    studio_program_vec3(program, "ground_colour", ground);
-    studio_program_int(program, "picture", 0);
+    studio_piece_light(program, studio_store_shading(shot->renderer->store));
     use_wind(shot, program);
     use_shadow(shot, program);
     glPolygonMode(GL_FRONT_AND_BACK, shot->display->mode == STUDIO_WIREFRAME ? GL_LINE : GL_FILL);
@@ -261,8 +218,8 @@ static void draw_skeleton(void *user, const mat4s *model, GLuint points, uint32_
     GLuint program = shot->renderer->line;
     studio_program_matrix(program, "model", model);
     glBindBuffer(GL_ARRAY_BUFFER, points);
-    attribute(0, 3, sizeof(StudioPoint), 0, 0);
-    attribute(1, 1, sizeof(StudioPoint), offsetof(StudioPoint, order), 0);
+    studio_piece_attribute(0, 3, sizeof(StudioPoint), 0, 0);
+    studio_piece_attribute(1, 1, sizeof(StudioPoint), offsetof(StudioPoint, order), 0);
     glDrawArrays(GL_LINES, 0, (GLsizei)count);
 }
 
@@ -304,7 +261,7 @@ static void draw_coarse(StudioRenderer *renderer, Shot *shot, const StudioCamera
         GLuint program = begin_surfaces(shot);
         for (guint i = 0; i < list->len; i++) {
             const StudioPiece *piece = &g_array_index(list, StudioPiece, i);
-            draw_piece(program, piece);
+            studio_piece_draw(program, piece, false);
             renderer->pace.coarse_triangles += piece->triangles;
         }
         glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -389,14 +346,14 @@ static bool draw_slices(StudioRenderer *renderer, const Shot *shot, double until
     if (is_shadow) {
         glUseProgram(program);
         studio_program_matrix(program, "clip", &renderer->to_shadow);
-        studio_program_int(program, "picture", 0);
         glEnable(GL_POLYGON_OFFSET_FILL);
         glPolygonOffset(1.5f, 2.0f);
     } else {
         program = begin_surfaces(shot);
     }
     while (renderer->next < renderer->slices->len) {
-        draw_piece(program, &g_array_index(renderer->slices, StudioPiece, renderer->next++));
+        studio_piece_draw(program, &g_array_index(renderer->slices, StudioPiece, renderer->next++),
+                          !is_shadow);
         glFinish();
         if (now() >= until) {
             break;
@@ -475,6 +432,11 @@ static Shot shot_of(const StudioRenderer *renderer, const StudioCamera *camera,
     shot.near = b / (a - 1);
     shot.far = b / (a + 1);
     shot.reach = (float)(0.02 * camera->distance);
+    double eye[3];
+    studio_camera_eye(camera, eye);
+    for (int i = 0; i < 3; i++) {
+        shot.eye[i] = (float)eye[i];
+    }
     return shot;
 }
 

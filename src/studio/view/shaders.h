@@ -1,5 +1,5 @@
 /// @file shaders.h
-/// The programs of the viewport, GLSL 3.30.
+/// The programs of the viewport but that of surfaces, GLSL 3.30.
 #pragma once
 
 /// Wind as a preview: what is higher gives way farther, in gusts that run over the ground. `gust`
@@ -37,56 +37,6 @@
     "    blade += cross(vec3(-gust.y, gust.x, 0.0) * 4.0 * beat, blade);\n"                        \
     "    return vec4(foot + blade + sway(foot), 1.0);\n"                                           \
     "}\n"
-
-static const char studio_surface_vertex[] =
-    STUDIO_PLACE "out vec3 at; out vec3 facing; out vec2 tile;\n"
-                 "void main() {\n"
-                 "    vec4 world = placed();\n"
-                 "    at = world.xyz; facing = mat3(model) * turned(normal); tile = uv;\n"
-                 "    gl_Position = clip * world;\n"
-                 "}\n";
-
-/// Sun with its shadow, a sky of one colour above and the ground's below, light through leaves.
-static const char studio_surface_fragment[] =
-    "#version 330 core\n"
-    "in vec3 at; in vec3 facing; in vec2 tile;\n"
-    "uniform vec3 tint; uniform float cutoff, translucency; uniform bool has_picture, is_blade;\n"
-    "uniform sampler2D picture; uniform sampler2DShadow shadow; uniform mat4 to_shadow;\n"
-    "uniform vec3 sun, sun_colour, sky_colour, ground_colour; uniform bool has_shadow;\n"
-    "layout(location=0) out vec4 colour;\n"
-    "float lit(vec3 n) {\n"
-    "    if (!has_shadow) return 1.0;\n"
-    "    vec4 p = to_shadow * vec4(at, 1.0); vec3 s = p.xyz * 0.5 + 0.5;\n"
-    "    if (any(lessThan(s, vec3(0.0))) || any(greaterThan(s, vec3(1.0)))) return 1.0;\n"
-    "    float bias = 0.0012; vec2 texel = 1.0 / vec2(textureSize(shadow, 0)); float sum = 0.0;\n"
-    "    for (int i = 0; i < 4; i++) {\n"
-    "        vec2 o = (vec2(i & 1, i >> 1) - 0.5) * 1.6 * texel;\n"
-    "        sum += texture(shadow, vec3(s.xy + o, s.z - bias));\n"
-    "    }\n"
-    "    return sum * 0.25;\n"
-    "}\n"
-    "vec3 tone(vec3 c) { c *= 0.9; c = c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14);\n"
-    "    return pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)); }\n"
-    "void main() {\n"
-    "    vec3 base = tint; \n"
-    "    if (has_picture) {\n"
-    "        vec4 t = texture(picture, tile);\n"
-    "        if (is_blade) {\n" /* smaller pictures of a leaf have softer edges: keep their area */
-    "            vec2 d = tile * vec2(textureSize(picture, 0));\n"
-    "            float level = max(0.0, 0.5 * log2(max(dot(dFdx(d), dFdx(d)),\n"
-    "                                                  dot(dFdy(d), dFdy(d)))));\n"
-    "            if (t.a * (1.0 + 0.25 * level) < cutoff) discard;\n"
-    "        }\n"
-    "        base = t.rgb * tint;\n"
-    "    }\n"
-    "    vec3 n = normalize(facing); if (!gl_FrontFacing && is_blade) n = -n;\n"
-    "    float front = dot(n, sun), shade = lit(n);\n"
-    "    vec3 ambient = mix(ground_colour, sky_colour, 0.5 + 0.5 * n.z);\n"
-    "    vec3 direct = sun_colour * shade * max(front, 0.0);\n"
-    "    vec3 through = sun_colour * shade * max(-front, 0.0) * translucency * vec3(1.1, 1.0, "
-    "0.45);\n"
-    "    colour = vec4(tone(base * (ambient + direct + through)), 1.0);\n"
-    "}\n";
 
 static const char studio_shadow_vertex[] =
     STUDIO_PLACE "out vec2 tile; void main() { tile = uv; gl_Position = clip * placed(); }\n";
@@ -165,6 +115,7 @@ static const char studio_backdrop_fragment[] =
     "}\n";
 
 /// Shows a drawn picture; with ambient occlusion from its depths: near neighbours in front darken.
+/// They are taken in pairs on both sides, whose mean is the depth here where the surface is flat.
 static const char studio_show_fragment[] =
     "#version 330 core\n"
     "in vec2 uv; uniform sampler2D drawn, depths; uniform vec2 planes; uniform float reach;\n"
@@ -180,13 +131,14 @@ static const char studio_show_fragment[] =
     "        vec2 size = vec2(textureSize(drawn, 0)); float radius = reach * size.y / here;\n"
     "        float turn = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453);\n"
     "        float world = reach * 2.2, hidden = 0.0;\n"
-    "        for (int i = 0; i < 10; i++) {\n"
-    "            float a = (float(i) + turn) * 2.39996, r = sqrt((float(i) + 0.5) / 10.0);\n"
-    "            float d = here - far_of(uv + vec2(cos(a), sin(a)) * r * radius / size);\n"
-    "            hidden += smoothstep(0.02, 0.35, d / world) * (1.0 - smoothstep(1.0, 3.0, d / "
-    "world));\n"
+    "        for (int i = 0; i < 6; i++) {\n"
+    "            float a = (float(i) + turn) * 2.39996, r = sqrt((float(i) + 0.5) / 6.0);\n"
+    "            vec2 o = vec2(cos(a), sin(a)) * r * radius / size;\n"
+    "            float flat_here = 2.0 / (1.0 / far_of(uv + o) + 1.0 / far_of(uv - o));\n"
+    "            float d = 1.6 * (here - flat_here) / world;\n"
+    "            hidden += smoothstep(0.02, 0.35, d) * (1.0 - smoothstep(1.0, 3.0, d));\n"
     "        }\n"
-    "        c *= 1.0 - 0.55 * hidden / 10.0;\n"
+    "        c *= 1.0 - 0.45 * hidden / 6.0;\n"
     "    }\n"
     "    colour = vec4(c, 1.0);\n"
     "}\n";

@@ -1,5 +1,7 @@
 #include "studio/view/store.h"
 
+#include "studio/view/pictures.h"
+
 #include "frond/daylight.h"
 
 #include <math.h>
@@ -18,8 +20,8 @@ typedef struct Part {
 
 typedef struct Look {
     FrDigest digest;
-    float tint[3], picture_tint[3];
-    float cutoff, translucency;
+    StudioDress dress;
+    float picture_tint[3];
 } Look;
 
 typedef struct Plant {
@@ -42,9 +44,10 @@ typedef struct Stand {
 } Stand;
 
 struct StudioStore {
-    GPtrArray *plants;    // Plant *
-    GArray *stands;       // Stand
-    GHashTable *pictures; // digest → texture
+    GPtrArray *plants; // Plant *
+    GArray *stands;    // Stand
+    StudioPictures *pictures;
+    FrShading shading;
     double min[3], max[3];
     float sun[3];
     StudioAmount amount;
@@ -90,16 +93,11 @@ static Plant *plant_new(void) {
     return plant;
 }
 
-static void delete_texture(gpointer texture) {
-    GLuint name = GPOINTER_TO_UINT(texture);
-    glDeleteTextures(1, &name);
-}
-
 StudioStore *studio_store_new(void) {
     StudioStore *store = g_new0(StudioStore, 1);
     store->plants = g_ptr_array_new_with_free_func(plant_free);
     store->stands = g_array_new(FALSE, FALSE, sizeof(Stand));
-    store->pictures = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, delete_texture);
+    store->pictures = studio_pictures_new();
     store->min[0] = 1;
     store->max[0] = -1;
     store->sun[2] = 1;
@@ -110,7 +108,7 @@ void studio_store_free(StudioStore *store) {
     if (store != NULL) {
         g_ptr_array_unref(store->plants);
         g_array_unref(store->stands);
-        g_hash_table_unref(store->pictures);
+        studio_pictures_free(store->pictures);
         g_free(store);
     }
 }
@@ -219,9 +217,12 @@ static void copy_looks(Plant *plant, const StudioPlant *from) {
     for (guint i = 0; i < from->looks->len; i++) {
         const StudioLook *look = &g_array_index(from->looks, StudioLook, i);
         Look own = {.digest = look->digest,
-                    .cutoff = look->alpha_cutoff,
-                    .translucency = look->translucency};
-        memcpy(own.tint, look->tint, sizeof own.tint);
+                    .dress = {.cutoff = look->alpha_cutoff,
+                              .translucency = look->translucency,
+                              .roughness = look->roughness,
+                              .relief = look->relief,
+                              .mirror = look->mirror}};
+        memcpy(own.dress.tint, look->tint, sizeof own.dress.tint);
         memcpy(own.picture_tint, look->picture_tint, sizeof own.picture_tint);
         g_array_append_val(plant->looks, own);
     }
@@ -299,6 +300,7 @@ void studio_store_update(StudioStore *store, const StudioView *view) {
         g_array_append_val(store->stands, stand);
     }
     fr_scene_bounds(view->scene, store->min, store->max);
+    store->shading = view->shading;
     place_sun(store, view->scene->params);
     glFinish();
     measure(store);
@@ -306,28 +308,7 @@ void studio_store_update(StudioStore *store, const StudioView *view) {
 }
 
 void studio_store_add_picture(StudioStore *store, const StudioPicture *picture) {
-    const FrImage *image = picture->image;
-    if (image == NULL) {
-        return;
-    }
-    static const GLenum formats[] = {0, GL_RED, GL_RG, GL_RGB, GL_RGBA};
-    GLuint texture;
-    glGenTextures(1, &texture);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, (GLsizei)image->width, (GLsizei)image->height,
-                 0, formats[image->channels], GL_UNSIGNED_BYTE, image->pixels);
-    if (image->channels == 1) {
-        static const GLint grey[] = {GL_RED, GL_RED, GL_RED, GL_ONE};
-        glTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_RGBA, grey);
-    }
-    glGenerateMipmap(GL_TEXTURE_2D);
-    GLint wrap = picture->is_clamped ? GL_CLAMP_TO_EDGE : GL_REPEAT;
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-    gint64 key = (gint64)picture->digest;
-    g_hash_table_insert(store->pictures, g_memdup2(&key, sizeof key), GUINT_TO_POINTER(texture));
+    studio_pictures_add(store->pictures, picture);
 }
 
 // ---- looking -----------------------------------------------------------------------------------
@@ -341,25 +322,32 @@ void studio_store_bounds(const StudioStore *store, double min[3], double max[3])
     memcpy(max, store->max, sizeof store->max);
 }
 
+const FrShading *studio_store_shading(const StudioStore *store) {
+    return &store->shading;
+}
+
 void studio_store_sun(const StudioStore *store, float sun[3]) {
     memcpy(sun, store->sun, sizeof store->sun);
 }
 
 static void dress(const StudioStore *store, const Plant *plant, uint32_t material,
                   StudioPiece *piece) {
-    static const float grey[3] = {0.35f, 0.33f, 0.30f};
-    const Look *look =
-        material < plant->looks->len ? &g_array_index(plant->looks, Look, material) : NULL;
-    gint64 key = look == NULL ? 0 : (gint64)look->digest;
-    piece->picture =
-        look == NULL ? 0 : GPOINTER_TO_UINT(g_hash_table_lookup(store->pictures, &key));
-    memcpy(piece->tint,
-           look == NULL          ? grey
-           : piece->picture != 0 ? look->picture_tint
-                                 : look->tint,
-           sizeof piece->tint);
-    piece->cutoff = look == NULL ? 0 : look->cutoff;
-    piece->translucency = look == NULL ? 0 : look->translucency;
+    if (material >= plant->looks->len) { // of no material: as pictures show it
+        piece->look = piece->is_blade
+                          ? (StudioDress){.tint = {0.12f, 0.25f, 0.05f},
+                                          .roughness = 0.5f,
+                                          .translucency = 0.45f}
+                          : (StudioDress){.tint = {0.22f, 0.17f, 0.12f}, .roughness = 0.9f};
+        return;
+    }
+    const Look *look = &g_array_index(plant->looks, Look, material);
+    piece->picture = studio_pictures_find(store->pictures, look->digest, FR_MAP_COLOUR);
+    piece->bumps = studio_pictures_find(store->pictures, look->digest, FR_MAP_NORMAL);
+    piece->gloss = studio_pictures_find(store->pictures, look->digest, FR_MAP_ROUGHNESS);
+    piece->look = look->dress;
+    if (piece->picture != 0) {
+        memcpy(piece->look.tint, look->picture_tint, sizeof piece->look.tint);
+    }
 }
 
 static StudioPiece piece_of(const StudioStore *store, const Stand *stand, const Plant *plant,

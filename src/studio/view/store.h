@@ -10,6 +10,12 @@
 
 typedef struct StudioStore StudioStore;
 
+/// What a surface does to light; the colour linear, and multiplied by that of the picture.
+typedef struct StudioDress {
+    float tint[3];
+    float cutoff, translucency, roughness, relief, mirror;
+} StudioDress;
+
 /// Something to draw in one call.
 typedef struct StudioPiece {
     mat4s model;
@@ -17,10 +23,9 @@ typedef struct StudioPiece {
     size_t first_index, index_count;
     GLuint leaves; ///< 0: drawn once
     size_t first_leaf, leaf_count;
-    float enlarge;  ///< leaves that stand for others
-    GLuint picture; ///< 0: none
-    float tint[3];
-    float cutoff, translucency;
+    float enlarge;                ///< leaves that stand for others
+    GLuint picture, bumps, gloss; ///< maps of colour, normals and roughness; 0: none
+    StudioDress look;
     bool is_blade;
     bool is_still; ///< no wind moves it
     uint64_t triangles;
@@ -42,6 +47,9 @@ StudioAmount studio_store_amount(const StudioStore *store);
 void studio_store_bounds(const StudioStore *store, double min[3], double max[3]);
 /// Unit vector towards the sun of the scene.
 void studio_store_sun(const StudioStore *store, float sun[3]);
+
+/// The light of the scene; its own, until the next update.
+const FrShading *studio_store_shading(const StudioStore *store);
 
 /// All there is, in pieces of at most `most` triangles (StudioPiece).
 GArray *studio_store_list_fine(const StudioStore *store, uint64_t most);
