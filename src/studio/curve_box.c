@@ -1,6 +1,7 @@
 #include "studio/curve_box.h"
 
 #include "frond/curve.h"
+#include "studio/accessible.h"
 #include "studio/model/values.h"
 
 #include <math.h>
@@ -71,7 +72,26 @@ static void fit(StudioCurveBox *box) {
     }
 }
 
+// Tells a screen reader which point is chosen, and where it is.
+static void say(StudioCurveBox *box) {
+    guint count = box->points == NULL ? 0 : box->points->len;
+    char *words =
+        box->chosen < count
+            ? g_strdup_printf("Point %u of %u at %.3g, %.3g", box->chosen + 1, count,
+                              point_at(box, box->chosen)[0], point_at(box, box->chosen)[1])
+            : g_strdup_printf("%u points; Page Down chooses one", count);
+    studio_describe(GTK_WIDGET(box), words);
+    g_free(words);
+}
+
+static void choose(StudioCurveBox *box, guint point) {
+    box->chosen = point;
+    say(box);
+    gtk_widget_queue_draw(GTK_WIDGET(box));
+}
+
 static void emit(StudioCurveBox *box, gboolean is_drag) {
+    say(box);
     char *text = studio_points_write(box->points);
     g_signal_emit(box, edited, 0, text, is_drag);
     g_free(text);
@@ -94,8 +114,7 @@ static void on_begin(GtkGestureDrag *drag, double x, double y, StudioCurveBox *b
         box->grabbed = studio_points_add(box->points, px, py, box->is_function);
         emit(box, TRUE);
     }
-    box->chosen = box->grabbed;
-    gtk_widget_queue_draw(GTK_WIDGET(box));
+    choose(box, box->grabbed);
 }
 
 static void on_drag(GtkGestureDrag *drag, double dx, double dy, StudioCurveBox *box) {
@@ -137,12 +156,65 @@ static void on_end(GtkGestureDrag *drag, double dx, double dy, StudioCurveBox *b
     }
 }
 
+// A new point halfway from the chosen one to the next.
+static void insert_point(StudioCurveBox *box) {
+    guint before = MIN(box->chosen, box->points->len - 2);
+    const double *a = point_at(box, before), *b = point_at(box, before + 1);
+    double x = 0.5 * (a[0] + b[0]), y = 0.5 * (a[1] + b[1]);
+    choose(box, studio_points_add(box->points, x, y, box->is_function));
+    emit(box, FALSE);
+}
+
+// From point to point.
+static bool choose_by_key(StudioCurveBox *box, guint key) {
+    guint last = box->points->len - 1, chosen = box->chosen;
+    switch (key) {
+    case GDK_KEY_Page_Down:
+        choose(box, chosen > last ? 0 : MIN(chosen + 1, last));
+        return true;
+    case GDK_KEY_Page_Up:
+        choose(box, chosen > last ? last : chosen - (chosen > 0));
+        return true;
+    case GDK_KEY_Home:
+    case GDK_KEY_End:
+        choose(box, key == GDK_KEY_Home ? 0 : last);
+        return true;
+    case GDK_KEY_Insert:
+        if (last > 0) {
+            insert_point(box);
+        }
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool is_arrow(guint key) {
+    return key == GDK_KEY_Left || key == GDK_KEY_Right || key == GDK_KEY_Up || key == GDK_KEY_Down;
+}
+
+static void on_release(GtkEventControllerKey *keys, guint key, guint code, GdkModifierType state,
+                       StudioCurveBox *box) {
+    (void)keys;
+    (void)code;
+    (void)state;
+    if (is_arrow(key) && box->points != NULL && box->chosen < box->points->len) {
+        emit(box, FALSE); // as long as the key was held it was one step
+    }
+}
+
 static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkModifierType state,
                        StudioCurveBox *box) {
     (void)keys;
     (void)code;
     (void)state;
-    if (box->points == NULL || box->chosen >= box->points->len) {
+    if (box->points == NULL || box->points->len == 0) {
+        return FALSE;
+    }
+    if (choose_by_key(box, key)) {
+        return TRUE;
+    }
+    if (box->chosen >= box->points->len) {
         return FALSE;
     }
     double x = point_at(box, box->chosen)[0], y = point_at(box, box->chosen)[1];
@@ -276,6 +348,7 @@ void studio_curve_box_show(StudioCurveBox *box, const char *points, int kind) {
     if (box->points == NULL || box->chosen >= box->points->len) {
         box->chosen = FR_NONE;
     }
+    say(box);
     fit(box);
     gtk_widget_queue_draw(GTK_WIDGET(box));
 }
@@ -291,6 +364,7 @@ static void studio_curve_box_class_init(StudioCurveBoxClass *class) {
     widget->snapshot = studio_curve_box_snapshot;
     widget->measure = studio_curve_box_measure;
     gtk_widget_class_set_css_name(widget, "curvebox");
+    gtk_widget_class_set_accessible_role(widget, GTK_ACCESSIBLE_ROLE_GROUP);
     edited = g_signal_new("edited", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL,
                           NULL, G_TYPE_NONE, 2, G_TYPE_STRING, G_TYPE_BOOLEAN);
 }
@@ -300,8 +374,6 @@ static void studio_curve_box_init(StudioCurveBox *box) {
     box->grabbed = box->chosen = FR_NONE;
     box->top = 1;
     gtk_widget_set_focusable(widget, TRUE);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(box), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Curve, drawn by its points", -1);
     GtkGesture *drag = gtk_gesture_drag_new();
     g_signal_connect(drag, "drag-begin", G_CALLBACK(on_begin), box);
     g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag), box);
@@ -309,6 +381,7 @@ static void studio_curve_box_init(StudioCurveBox *box) {
     gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(drag));
     GtkEventController *keys = gtk_event_controller_key_new();
     g_signal_connect(keys, "key-pressed", G_CALLBACK(on_key), box);
+    g_signal_connect(keys, "key-released", G_CALLBACK(on_release), box);
     gtk_widget_add_controller(widget, keys);
 }
 

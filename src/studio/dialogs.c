@@ -1,4 +1,5 @@
 /// Preferences, shortcuts, about, and the question before something is lost.
+#include "studio/accessible.h"
 #include "studio/model/graph.h"
 #include "studio/window_private.h"
 
@@ -23,6 +24,8 @@ static GtkWidget *switch_row(const char *title, const char *subtitle, GtkWidget 
     adw_action_row_set_subtitle(ADW_ACTION_ROW(row), subtitle);
     *toggle = gtk_switch_new();
     gtk_widget_set_valign(*toggle, GTK_ALIGN_CENTER);
+    studio_name(*toggle, title);
+    studio_describe(*toggle, subtitle);
     adw_action_row_add_suffix(ADW_ACTION_ROW(row), *toggle);
     adw_action_row_set_activatable_widget(ADW_ACTION_ROW(row), *toggle);
     return row;
@@ -49,6 +52,7 @@ static GtkWidget *budget_row(StudioWindow *window) {
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(button),
                               studio_settings_int(window->settings, "budget", STUDIO_USUAL_BUDGET));
     gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
+    studio_name(button, "Budget");
     adw_action_row_add_suffix(ADW_ACTION_ROW(row), button);
     adw_action_row_set_activatable_widget(ADW_ACTION_ROW(row), button);
     g_signal_connect(button, "value-changed", G_CALLBACK(on_budget), window);

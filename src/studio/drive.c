@@ -253,6 +253,46 @@ static void close_dialog(Drive *drive, char *const *words, const char *rest) {
     answer("%s", dialog != NULL ? "ok" : "error there is no dialog");
 }
 
+// A widget as a word: which one it is, its type, and its name or that of what it is in.
+static void name_widget(GString *words, GtkWidget *widget) {
+    GtkWidget *named = widget;
+    while (named != NULL && strcmp(gtk_widget_get_name(named), G_OBJECT_TYPE_NAME(named)) == 0) {
+        named = gtk_widget_get_parent(named);
+    }
+    char *name = g_strdelimit(g_strdup(named == NULL ? "" : gtk_widget_get_name(named)), " ", '-');
+    g_string_append_printf(words, "%s%p:%s:%s", words->len > 0 ? " " : "", (void *)widget,
+                           G_OBJECT_TYPE_NAME(widget), name);
+    g_free(name);
+}
+
+static void list_focusable(GString *words, GtkWidget *within) {
+    if (!gtk_widget_get_mapped(within) || !gtk_widget_is_sensitive(within) ||
+        !gtk_widget_get_can_focus(within)) {
+        return;
+    }
+    if (gtk_widget_get_focusable(within)) {
+        name_widget(words, within);
+    }
+    for (GtkWidget *child = gtk_widget_get_first_child(within); child != NULL;
+         child = gtk_widget_get_next_sibling(child)) {
+        list_focusable(words, child);
+    }
+}
+
+// What has the keyboard, or with "all", what may have it.
+static void focus(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    GtkWidget *has = gtk_window_get_focus(GTK_WINDOW(drive->window));
+    GString *text = g_string_new(NULL);
+    if (strcmp(rest, "all") == 0) {
+        list_focusable(text, GTK_WIDGET(drive->window));
+    } else if (has != NULL) {
+        name_widget(text, has);
+    }
+    answer("%s", text->len == 0 ? "nothing" : text->str);
+    g_string_free(text, TRUE);
+}
+
 static void keep(Drive *drive, char *const *words, const char *rest) {
     (void)words;
     (void)rest;
@@ -332,6 +372,7 @@ static const struct {
     {"state", state, 1, false},
     {"sketch", sketch, 1, false},
     {"pointed", pointed, 1, false},
+    {"focus", focus, 1, false},
     {"keep", keep, 1, false},
     {"restore", restore, 1, false},
     {"quit", quit, 1, true},

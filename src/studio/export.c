@@ -1,4 +1,5 @@
 /// The dialog that writes a model for another program.
+#include "studio/accessible.h"
 #include "studio/model/profile.h"
 #include "studio/window_private.h"
 
@@ -186,6 +187,7 @@ static GtkWidget *make_level(Job *job) {
     adw_action_row_set_subtitle(ADW_ACTION_ROW(row), "0 is finest; each has some 40 %");
     job->lod = gtk_spin_button_new_with_range(0, 8, 1);
     gtk_widget_set_valign(job->lod, GTK_ALIGN_CENTER);
+    studio_name(job->lod, "Level of detail");
     adw_action_row_add_suffix(ADW_ACTION_ROW(row), job->lod);
     return row;
 }

@@ -1,5 +1,6 @@
 #include "studio/graph_panel_private.h"
 
+#include "studio/accessible.h"
 #include "studio/model/builder.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@ G_DEFINE_TYPE(StudioGraphPanel, studio_graph_panel, GTK_TYPE_WIDGET)
 
 // ---- what a drop would do ----------------------------------------------------------------------
 
-static void drop(StudioGraphPanel *panel) {
+void studio_graph_drop(StudioGraphPanel *panel) {
     const StudioBox *on =
         panel->over == FR_NONE ? NULL : studio_graph_box(panel->graph, panel->over);
     char *target = on == NULL ? NULL : g_strdup(on->id);
@@ -44,7 +45,7 @@ static void on_begin(GtkGestureDrag *gesture, double x, double y, StudioGraphPan
     gtk_widget_grab_focus(GTK_WIDGET(panel));
     panel->x = x;
     panel->y = y;
-    panel->is_dragged = false;
+    panel->is_dragged = panel->is_carried = false;
     panel->held = studio_graph_box_under(panel, x, y);
     panel->drag = panel->held != FR_NONE ? DRAG_BOX : DRAG_CANVAS;
     if (panel->held == FR_NONE && y > studio_graph_tools_top(panel)) {
@@ -97,11 +98,17 @@ static void on_end(GtkGestureDrag *gesture, double dx, double dy, StudioGraphPan
     if (!panel->is_dragged) {
         click(panel);
     } else if (drag != DRAG_CANVAS) {
-        drop(panel);
+        studio_graph_drop(panel);
     }
     panel->drag = DRAG_NOTHING;
     panel->over = FR_NONE;
     gtk_widget_queue_draw(GTK_WIDGET(panel));
+}
+
+void studio_graph_popup(StudioGraphPanel *panel, double x, double y) {
+    GdkRectangle at = {(int)x, (int)y, 1, 1};
+    gtk_popover_set_pointing_to(GTK_POPOVER(panel->menu), &at);
+    gtk_popover_popup(GTK_POPOVER(panel->menu));
 }
 
 static void on_menu(GtkGestureClick *gesture, int count, double x, double y,
@@ -111,60 +118,11 @@ static void on_menu(GtkGestureClick *gesture, int count, double x, double y,
     uint32_t box = studio_graph_box_under(panel, x, y);
     if (box != FR_NONE) {
         g_signal_emit(panel, selected_signal, 0, studio_graph_box(panel->graph, box)->element);
-        GdkRectangle at = {(int)x, (int)y, 1, 1};
-        gtk_popover_set_pointing_to(GTK_POPOVER(panel->menu), &at);
-        gtk_popover_popup(GTK_POPOVER(panel->menu));
+        studio_graph_popup(panel, x, y);
     }
 }
 
-// ---- keys --------------------------------------------------------------------------------------
-
-static uint32_t selected_box(StudioGraphPanel *panel) {
-    for (guint i = 0; i < panel->graph->boxes->len; i++) {
-        if (studio_graph_box(panel->graph, i)->element == panel->selected) {
-            return i;
-        }
-    }
-    return FR_NONE;
-}
-
-// The nearest box in a direction.
-static uint32_t neighbour(StudioGraphPanel *panel, uint32_t from, double dx, double dy) {
-    const StudioBox *here = studio_graph_box(panel->graph, from);
-    uint32_t best = FR_NONE;
-    double nearest = INFINITY;
-    for (guint i = 0; i < panel->graph->boxes->len; i++) {
-        const StudioBox *box = studio_graph_box(panel->graph, i);
-        double x = box->column - here->column, y = box->row - here->row;
-        double ahead = x * dx + y * dy, aside = fabs(x * dy) + fabs(y * dx);
-        if (ahead > 0.1 && ahead + 2 * aside < nearest) {
-            nearest = ahead + 2 * aside;
-            best = i;
-        }
-    }
-    return best;
-}
-
-static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkModifierType state,
-                       StudioGraphPanel *panel) {
-    (void)keys;
-    (void)code;
-    (void)state;
-    if (key == GDK_KEY_Delete || key == GDK_KEY_BackSpace) {
-        return gtk_widget_activate_action(GTK_WIDGET(panel), "win.remove", NULL);
-    }
-    double dx = key == GDK_KEY_Right ? 1 : key == GDK_KEY_Left ? -1 : 0;
-    double dy = key == GDK_KEY_Down ? 1 : key == GDK_KEY_Up ? -1 : 0;
-    if ((dx == 0 && dy == 0) || panel->graph->boxes->len == 0) {
-        return FALSE;
-    }
-    uint32_t from = selected_box(panel);
-    uint32_t to = from == FR_NONE ? 0 : neighbour(panel, from, dx, dy);
-    if (to != FR_NONE) {
-        g_signal_emit(panel, selected_signal, 0, studio_graph_box(panel->graph, to)->element);
-    }
-    return TRUE;
-}
+// ---- showing -----------------------------------------------------------------------------------
 
 static void studio_graph_panel_snapshot(GtkWidget *widget, GtkSnapshot *snapshot) {
     studio_graph_draw(STUDIO_GRAPH_PANEL(widget), snapshot);
@@ -173,12 +131,12 @@ static void studio_graph_panel_snapshot(GtkWidget *widget, GtkSnapshot *snapshot
 static void on_motion(GtkEventControllerMotion *motion, double x, double y,
                       StudioGraphPanel *panel) {
     (void)motion;
-    panel->x = x;
-    panel->y = y;
+    if (panel->drag == DRAG_NOTHING) {
+        panel->x = x;
+        panel->y = y;
+    }
     gtk_widget_queue_draw(GTK_WIDGET(panel));
 }
-
-// ---- showing -----------------------------------------------------------------------------------
 
 void studio_graph_panel_show(StudioGraphPanel *panel, StudioDocument *document, uint32_t plant,
                              uint32_t selected) {
@@ -191,6 +149,9 @@ void studio_graph_panel_show(StudioGraphPanel *panel, StudioDocument *document, 
     panel->selected = selected;
     studio_graph_free(panel->graph);
     panel->graph = studio_graph_new(studio_document_contents(document), plant);
+    panel->drag = DRAG_NOTHING; // what was held may be gone
+    panel->over = FR_NONE;
+    studio_graph_say(panel);
     gtk_widget_queue_draw(GTK_WIDGET(panel));
 }
 
@@ -206,6 +167,7 @@ void studio_graph_panel_set_counts(StudioGraphPanel *panel, const GArray *counts
                                 g_memdup2(&count->instances, sizeof count->instances));
         }
     }
+    studio_graph_say(panel);
     gtk_widget_queue_draw(GTK_WIDGET(panel));
 }
 
@@ -252,6 +214,7 @@ static void studio_graph_panel_class_init(StudioGraphPanelClass *class) {
     widget->snapshot = studio_graph_panel_snapshot;
     widget->size_allocate = studio_graph_panel_allocate;
     gtk_widget_class_set_css_name(widget, "graphpanel");
+    gtk_widget_class_set_accessible_role(widget, GTK_ACCESSIBLE_ROLE_GROUP);
     selected_signal = g_signal_new("selected", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL,
                                    NULL, NULL, G_TYPE_NONE, 1, G_TYPE_UINT);
 }
@@ -267,9 +230,7 @@ static void add_controllers(StudioGraphPanel *panel) {
     gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(menu), GDK_BUTTON_SECONDARY);
     g_signal_connect(menu, "pressed", G_CALLBACK(on_menu), panel);
     gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(menu));
-    GtkEventController *keys = gtk_event_controller_key_new();
-    g_signal_connect(keys, "key-pressed", G_CALLBACK(on_key), panel);
-    gtk_widget_add_controller(widget, keys);
+    studio_graph_add_keys(panel);
     GtkEventController *motion = gtk_event_controller_motion_new();
     g_signal_connect(motion, "motion", G_CALLBACK(on_motion), panel);
     gtk_widget_add_controller(widget, motion);
@@ -297,8 +258,7 @@ static void studio_graph_panel_init(StudioGraphPanel *panel) {
     gtk_widget_set_focusable(widget, TRUE);
     gtk_widget_set_hexpand(widget, TRUE);
     gtk_widget_set_vexpand(widget, TRUE);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(panel), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Graph of components", -1);
+    studio_name(GTK_WIDGET(panel), "Graph of components");
     add_controllers(panel);
 }
 

@@ -35,6 +35,7 @@ struct _StudioGraphPanel {
     DragKind drag;
     uint32_t held;   // tool or box
     bool is_dragged; // it is no click
+    bool is_carried; // by keys
     double x, y;     // pointer
     uint32_t over;   // box under the pointer, FR_NONE
     GtkWidget *menu;
@@ -61,3 +62,16 @@ char *studio_graph_words_of_drop(StudioGraphPanel *panel, bool *is_refused);
 // graph_draw.c
 
 void studio_graph_draw(StudioGraphPanel *panel, GtkSnapshot *snapshot);
+
+// graph_panel.c
+
+/// Does what the drop of what is held would do here.
+void studio_graph_drop(StudioGraphPanel *panel);
+/// The menu of the selected box.
+void studio_graph_popup(StudioGraphPanel *panel, double x, double y);
+
+// graph_keys.c
+
+void studio_graph_add_keys(StudioGraphPanel *panel);
+/// Tells a screen reader what is selected, or what a drop would do.
+void studio_graph_say(StudioGraphPanel *panel);

@@ -1,5 +1,6 @@
 #include "studio/inspector.h"
 
+#include "studio/accessible.h"
 #include "studio/model/commands.h"
 #include "studio/model/place.h"
 #include "studio/param_row.h"
@@ -93,6 +94,7 @@ static void on_given(GtkToggleButton *button, StudioInspector *inspector) {
 
 static GtkWidget *add_section(StudioInspector *inspector, const char *title, bool is_open) {
     GtkWidget *expander = gtk_expander_new(title);
+    studio_name(expander, title);
     gtk_expander_set_expanded(GTK_EXPANDER(expander), is_open);
     gtk_widget_add_css_class(expander, "section");
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
@@ -277,8 +279,7 @@ static GtkWidget *make_heading(StudioInspector *inspector) {
     gtk_widget_set_hexpand(inspector->id, TRUE);
     gtk_widget_add_css_class(inspector->id, "title-entry");
     gtk_widget_set_name(inspector->id, "element-id");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(inspector->id), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Name", -1);
+    studio_name(inspector->id, "Name");
     g_signal_connect(inspector->id, "activate", G_CALLBACK(on_renamed), inspector);
     gtk_box_append(GTK_BOX(line), inspector->id);
     gtk_box_append(GTK_BOX(line), inspector->kind);
@@ -289,6 +290,7 @@ static GtkWidget *make_heading(StudioInspector *inspector) {
     gtk_widget_add_css_class(inspector->meaning, "dim-label");
     GtkWidget *tools = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
     inspector->search = gtk_search_entry_new();
+    studio_name(inspector->search, "Find a parameter");
     gtk_widget_set_hexpand(inspector->search, TRUE);
     g_signal_connect(inspector->search, "search-changed", G_CALLBACK(on_search), inspector);
     inspector->given = gtk_toggle_button_new_with_label("Changed");

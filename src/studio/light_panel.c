@@ -1,5 +1,6 @@
 #include "studio/light_panel.h"
 
+#include "studio/accessible.h"
 #include "studio/model/lamps.h"
 #include "studio/model/light_marks.h"
 #include "studio/model/values.h"
@@ -66,6 +67,9 @@ static void add_row(StudioLightPanel *panel, uint32_t element, const char *icon,
     gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(row), box);
     gtk_list_box_row_set_selectable(GTK_LIST_BOX_ROW(row), element != FR_NONE);
     g_object_set_data(G_OBJECT(row), key, GUINT_TO_POINTER(element));
+    char *words = g_strdup_printf("%s, %s", title, note);
+    studio_name(row, words);
+    g_free(words);
     gtk_list_box_append(GTK_LIST_BOX(panel->list), row);
 }
 
@@ -255,14 +259,18 @@ static GtkWidget *make_add(void) {
     gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
     gtk_widget_set_tooltip_text(button, "Hang a lamp into the scene");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Add a lamp", -1);
+    studio_name(button, "Add a lamp");
     g_object_unref(menu);
     return button;
 }
 
 static GtkWidget *check(GtkWidget *box, const char *label, const char *action, const char *tip) {
     GtkWidget *button = gtk_check_button_new_with_mnemonic(label);
+    char **parts = g_strsplit(label, "_", 2); // GTK would have the line below the letter read
+    char *name = g_strjoinv("", parts);
+    studio_name(button, name);
+    g_free(name);
+    g_strfreev(parts);
     gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
     gtk_widget_set_tooltip_text(button, tip);
     gtk_box_append(GTK_BOX(box), button);
@@ -272,7 +280,7 @@ static GtkWidget *check(GtkWidget *box, const char *label, const char *action, c
 static GtkWidget *make_scale(double min, double max, double step, const char *name) {
     GtkWidget *scale = gtk_scale_new_with_range(GTK_ORIENTATION_HORIZONTAL, min, max, step);
     gtk_widget_set_hexpand(scale, TRUE);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(scale), GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+    studio_name(scale, name);
     return scale;
 }
 
@@ -296,8 +304,7 @@ static void add_field(StudioLightPanel *panel, GtkWidget *box) {
     gtk_widget_set_name(panel->field, "light-field");
     gtk_widget_set_hexpand(panel->field, TRUE);
     gtk_widget_set_tooltip_text(panel->field, "The light that plants sense, in false colours");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(panel->field), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Light in colours", -1);
+    studio_name(panel->field, "Light in colours");
     g_signal_connect(panel->field, "notify::selected", G_CALLBACK(on_field), panel);
     gtk_box_append(GTK_BOX(box), labelled("Light", panel->field));
     panel->slice = make_scale(0, 1, 0.01, "Where the slice lies");
@@ -371,8 +378,7 @@ static void studio_light_panel_init(StudioLightPanel *panel) {
     gtk_box_append(GTK_BOX(box), top);
     panel->list = gtk_list_box_new();
     gtk_widget_add_css_class(panel->list, "boxed-list");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(panel->list), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Lamps, sun and probe", -1);
+    studio_name(panel->list, "Lamps, sun and probe");
     g_signal_connect(panel->list, "row-selected", G_CALLBACK(on_row), panel);
     gtk_box_append(GTK_BOX(box), panel->list);
     add_shown(panel, box);

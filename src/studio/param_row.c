@@ -1,5 +1,6 @@
 #include "studio/param_row.h"
 
+#include "studio/accessible.h"
 #include "studio/curve_box.h"
 #include "studio/model/values.h"
 
@@ -127,7 +128,7 @@ static GtkWidget *flat_button(const char *icon, const char *tip) {
     gtk_widget_add_css_class(button, "row-button");
     gtk_widget_set_tooltip_text(button, tip);
     gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+    studio_name(button, tip);
     return button;
 }
 
@@ -238,8 +239,7 @@ static void make_below(StudioParamRow *row, const char *title) {
         make_scale(row);
         char *name = g_strconcat(row->attribute, "-scale", NULL);
         gtk_widget_set_name(row->scale, name);
-        gtk_accessible_update_property(GTK_ACCESSIBLE(row->scale), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                       title, -1);
+        studio_name(row->scale, title);
         g_free(name);
     }
     if (param->kind == FR_PARAM_CURVE || param->kind == FR_PARAM_POINTS) {
@@ -247,6 +247,7 @@ static void make_below(StudioParamRow *row, const char *title) {
                                           strcmp(param->name, "points") == 0);
         char *name = g_strconcat(row->attribute, "-curve", NULL);
         gtk_widget_set_name(row->curve, name);
+        studio_name(row->curve, title);
         g_free(name);
         g_signal_connect(row->curve, "edited", G_CALLBACK(on_curve), row);
         gtk_box_append(GTK_BOX(row), row->curve);
@@ -265,8 +266,8 @@ static void fill(StudioParamRow *row) {
     GtkWidget *line = make_line(row, title);
     GtkWidget *value = make_value(row);
     gtk_widget_set_name(value, row->attribute);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(value), GTK_ACCESSIBLE_PROPERTY_LABEL, title,
-                                   GTK_ACCESSIBLE_PROPERTY_DESCRIPTION, row->param->meaning, -1);
+    studio_name(value, title);
+    studio_describe(value, row->param->meaning);
     gtk_box_append(GTK_BOX(line), value);
     GtkWidget *unit = gtk_label_new(strcmp(row->param->unit, "deg") == 0 ? "°" : row->param->unit);
     gtk_widget_add_css_class(unit, "dim-label");
@@ -315,6 +316,7 @@ void studio_param_row_show(StudioParamRow *row, const char *value) {
     row->is_showing = TRUE;
     gtk_widget_set_opacity(row->reset, own != NULL ? 1 : 0);
     gtk_widget_set_can_target(row->reset, own != NULL);
+    gtk_widget_set_can_focus(row->reset, own != NULL);
     if (own != NULL) {
         gtk_widget_add_css_class(GTK_WIDGET(row), "given");
     } else {

@@ -1,5 +1,6 @@
 #include "studio/preset_cards.h"
 
+#include "studio/accessible.h"
 #include "studio/files.h"
 #include "studio/model/presets.h"
 
@@ -79,8 +80,7 @@ static GtkWidget *make_menu(const char *name) {
     gtk_widget_set_valign(button, GTK_ALIGN_START);
     gtk_widget_add_css_class(button, "preset-menu");
     gtk_widget_set_tooltip_text(button, "Rename or remove");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Rename or remove", -1);
+    studio_name(button, "Rename or remove");
     g_object_unref(menu);
     return button;
 }
@@ -103,7 +103,7 @@ static GtkWidget *make_card(const char *name, bool is_own, const char *file) {
     gtk_widget_add_css_class(child, "preset");
     gtk_widget_set_name(child, name);
     gtk_widget_set_tooltip_text(child, title);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(child), GTK_ACCESSIBLE_PROPERTY_LABEL, title, -1);
+    studio_name(child, title);
     g_free(title);
     return child;
 }

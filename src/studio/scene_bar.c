@@ -1,4 +1,5 @@
 /// The palette of the scene's tools, and what can be set of the one that is chosen.
+#include "studio/accessible.h"
 #include "studio/model/adopt.h"
 #include "studio/scene_tool_private.h"
 #include "studio/wrap_box.h"
@@ -106,8 +107,7 @@ static GtkWidget *labelled(GtkWidget *box, const char *text, GtkWidget *widget, 
     GtkWidget *label = gtk_label_new_with_mnemonic(text);
     gtk_label_set_mnemonic_widget(GTK_LABEL(label), widget);
     gtk_widget_set_tooltip_text(widget, tip);
-    gtk_accessible_update_relation(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_RELATION_LABELLED_BY,
-                                   label, NULL, -1);
+    studio_name_inside(widget, gtk_label_get_text(GTK_LABEL(label)));
     gtk_box_append(GTK_BOX(box), label);
     gtk_box_append(GTK_BOX(box), widget);
     return widget;
@@ -199,8 +199,7 @@ static GtkWidget *make_ground_button(void) {
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
     gtk_menu_button_set_direction(GTK_MENU_BUTTON(button), GTK_ARROW_RIGHT);
     gtk_widget_set_tooltip_text(button, "The ground: hills from a picture or a mesh");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "The ground", -1);
+    studio_name(button, "The ground");
     g_object_unref(menu);
     return button;
 }
@@ -214,8 +213,7 @@ static GtkWidget *make_palette(void) {
         gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "win.scene-tool");
         gtk_actionable_set_action_target(GTK_ACTIONABLE(button), "s", kind->name);
         gtk_widget_set_tooltip_text(button, kind->tip);
-        gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                       kind->tip, -1);
+        studio_name(button, kind->tip);
         gtk_widget_add_css_class(button, "flat");
         char *name = g_strdup_printf("tool-%s", kind->name);
         gtk_widget_set_name(button, name);

@@ -1,5 +1,6 @@
 #include "studio/sketch_board.h"
 
+#include "studio/accessible.h"
 #include "studio/model/sketch_shape.h"
 #include "studio/sketch_canvas.h"
 
@@ -387,10 +388,8 @@ static void studio_sketch_board_init(StudioSketchBoard *board) {
 
 GtkWidget *studio_sketch_board_new(void) {
     GtkWidget *widget = g_object_new(STUDIO_TYPE_SKETCH_BOARD, NULL);
-    gtk_accessible_update_property(
-        GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL, "Drawing board",
-        GTK_ACCESSIBLE_PROPERTY_DESCRIPTION,
-        "Draw with the pointer, or with arrow keys and Space; Page Up and Page Down move the board",
-        -1);
+    studio_name(widget, "Drawing board");
+    studio_describe(widget, "Draw with the pointer, or with arrow keys and Space; Page Up and Page "
+                            "Down move the board");
     return widget;
 }

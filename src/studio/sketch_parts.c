@@ -1,4 +1,5 @@
 /// What the sketch panel is made of.
+#include "studio/accessible.h"
 #include "studio/param_row.h"
 #include "studio/sketch_panel_private.h"
 
@@ -14,7 +15,7 @@ typedef struct Button {
 
 static void name_it(GtkWidget *widget, const char *tip) {
     gtk_widget_set_tooltip_text(widget, tip);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+    studio_name(widget, tip);
 }
 
 // Buttons of which one is down: the values of an action.
@@ -254,10 +255,9 @@ static GtkWidget *make_skeleton(StudioSketchPanel *panel) {
         {"Both", "both", "A stroke is for the chosen branches and all that they bear"}};
     panel->skeleton = STUDIO_SKETCH_VIEW(studio_sketch_view_new("Skeleton"));
     gtk_widget_set_name(GTK_WIDGET(panel->skeleton), "sketch-skeleton");
-    gtk_accessible_update_property(
-        GTK_ACCESSIBLE(panel->skeleton), GTK_ACCESSIBLE_PROPERTY_DESCRIPTION,
-        "Home chooses the stem, Page Down a branch of it, N the next one, Page Up what bears it",
-        -1);
+    studio_describe(
+        GTK_WIDGET(panel->skeleton),
+        "Home chooses the stem, Page Down a branch of it, N the next one, Page Up what bears it");
     studio_sketch_view_set_painting(panel->skeleton, TRUE);
     g_signal_connect(panel->skeleton, "pen", G_CALLBACK(studio_sketch_on_pen), panel);
     g_signal_connect(panel->skeleton, "key", G_CALLBACK(studio_sketch_on_key), panel);
@@ -334,6 +334,7 @@ static GtkWidget *popover_button(const char *label, const char *tip, GtkWidget *
     gtk_menu_button_set_popover(GTK_MENU_BUTTON(button), popover);
     gtk_menu_button_set_label(GTK_MENU_BUTTON(button), label);
     gtk_widget_set_tooltip_text(button, tip);
+    studio_name(button, tip);
     return button;
 }
 
@@ -400,6 +401,8 @@ void studio_sketch_make(StudioSketchPanel *panel) {
         gtk_paned_set_shrink_end_child(GTK_PANED(panes[i]), FALSE);
         gtk_paned_set_wide_handle(GTK_PANED(panes[i]), FALSE);
     }
+    studio_name(panel->outer, "Divider between result and board");
+    studio_name(panel->inner, "Divider between board and skeleton");
     gtk_paned_set_position(GTK_PANED(panel->outer), 430);
     gtk_paned_set_position(GTK_PANED(panel->inner), 500);
     gtk_widget_set_vexpand(panel->outer, TRUE);

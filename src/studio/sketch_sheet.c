@@ -1,5 +1,6 @@
 #include "studio/sketch_sheet.h"
 
+#include "studio/accessible.h"
 #include "studio/model/sketch_shape.h"
 #include "studio/sketch_canvas.h"
 
@@ -210,7 +211,6 @@ static void studio_sketch_sheet_init(StudioSketchSheet *sheet) {
 
 GtkWidget *studio_sketch_sheet_new(void) {
     GtkWidget *widget = g_object_new(STUDIO_TYPE_SKETCH_SHEET, NULL);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Contact sheet of instances", -1);
+    studio_name(widget, "Contact sheet of instances");
     return widget;
 }

@@ -1,4 +1,5 @@
 /// What the panes of the sketch panel show.
+#include "studio/accessible.h"
 #include "studio/param_row.h"
 #include "studio/sketch_panel_private.h"
 
@@ -290,8 +291,7 @@ static void show_marks(StudioSketchPanel *panel, const FrContents *contents) {
         GtkWidget *button = gtk_button_new_from_icon_name("user-trash-symbolic");
         gtk_widget_add_css_class(button, "flat");
         gtk_widget_set_tooltip_text(button, "Remove it");
-        gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                       "Remove it", -1);
+        studio_name(button, "Remove it");
         g_object_set_data(G_OBJECT(button), "mark", GUINT_TO_POINTER(i));
         g_signal_connect(button, "clicked", G_CALLBACK(on_remove_mark), panel);
         gtk_box_append(GTK_BOX(row), label);

@@ -1,5 +1,6 @@
 #include "studio/sketch_view.h"
 
+#include "studio/accessible.h"
 #include "studio/model/sketch_shape.h"
 #include "studio/sketch_canvas.h"
 
@@ -215,7 +216,6 @@ static void studio_sketch_view_init(StudioSketchView *view) {
 
 GtkWidget *studio_sketch_view_new(const char *label) {
     GtkWidget *widget = g_object_new(STUDIO_TYPE_SKETCH_VIEW, NULL);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL, label,
-                                   -1);
+    studio_name(widget, label);
     return widget;
 }

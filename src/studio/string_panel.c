@@ -1,5 +1,6 @@
 #include "studio/string_panel.h"
 
+#include "studio/accessible.h"
 #include "studio/model/lstring.h"
 #include "studio/model/values.h"
 #include "studio/window_private.h"
@@ -388,7 +389,7 @@ static GtkWidget *add_button(StudioStringPanel *panel, GtkWidget *bar, const cha
     gtk_widget_add_css_class(button, "flat");
     gtk_widget_set_tooltip_text(button, tip);
     gtk_widget_set_name(button, tip);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+    studio_name(button, tip);
     g_signal_connect(button, "clicked", callback, panel);
     gtk_box_append(GTK_BOX(bar), button);
     return button;
@@ -429,8 +430,7 @@ static GtkWidget *make_view(StudioStringPanel *panel) {
     gtk_text_view_set_top_margin(view, 6);
     gtk_text_view_set_accepts_tab(view, FALSE);
     gtk_widget_set_name(panel->view, "string");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(panel->view), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "String of the L-system", -1);
+    studio_name(panel->view, "String of the L-system");
     g_signal_connect(panel->buffer, "notify::cursor-position", G_CALLBACK(on_cursor), panel);
     GtkWidget *scrolled = gtk_scrolled_window_new();
     gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scrolled), GTK_POLICY_NEVER,

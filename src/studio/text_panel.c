@@ -1,5 +1,6 @@
 #include "studio/text_panel.h"
 
+#include "studio/accessible.h"
 #include "studio/model/place.h"
 
 #include <adwaita.h>
@@ -256,8 +257,7 @@ static void studio_text_panel_init(StudioTextPanel *panel) {
     gtk_source_view_set_insert_spaces_instead_of_tabs(GTK_SOURCE_VIEW(panel->view), TRUE);
     gtk_source_view_set_auto_indent(GTK_SOURCE_VIEW(panel->view), TRUE);
     gtk_text_view_set_monospace(GTK_TEXT_VIEW(panel->view), TRUE);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(panel->view), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Text of the document", -1);
+    studio_name(panel->view, "Text of the document");
     g_signal_connect(panel->buffer, "changed", G_CALLBACK(on_changed), panel);
     GtkWidget *scrolled = gtk_scrolled_window_new();
     gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scrolled), panel->view);

@@ -1,5 +1,7 @@
 #include "studio/things_panel.h"
 
+#include "studio/accessible.h"
+
 #include <string.h>
 
 enum { INDENT = 16 };
@@ -70,6 +72,9 @@ static GtkWidget *make_row(const FrContents *contents, uint32_t element) {
     GtkWidget *row = gtk_list_box_row_new();
     gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(row), box);
     g_object_set_data(G_OBJECT(row), key, GUINT_TO_POINTER(element));
+    char *said = called == NULL ? g_strdup(at->name) : g_strdup_printf("%s, %s", called, at->name);
+    studio_name(row, said);
+    g_free(said);
     g_free(called);
     return row;
 }
@@ -113,8 +118,7 @@ static void studio_things_panel_class_init(StudioThingsPanelClass *class) {
 static void studio_things_panel_init(StudioThingsPanel *panel) {
     panel->list = gtk_list_box_new();
     gtk_widget_add_css_class(panel->list, "navigation-sidebar");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(panel->list), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Contents of the document", -1);
+    studio_name(panel->list, "Contents of the document");
     g_signal_connect(panel->list, "row-selected", G_CALLBACK(on_row), panel);
     GtkWidget *scrolled = gtk_scrolled_window_new();
     gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scrolled), panel->list);

@@ -1,5 +1,6 @@
 #include "studio/time_strip.h"
 
+#include "studio/accessible.h"
 #include "studio/model/commands.h"
 #include "studio/model/place.h"
 #include "studio/model/values.h"
@@ -154,7 +155,7 @@ static GtkWidget *growth_button(StudioTimeStrip *strip, GtkWidget *box, const ch
     gtk_widget_add_css_class(button, "flat");
     gtk_widget_set_tooltip_text(button, tip);
     gtk_widget_set_name(button, tip);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+    studio_name(button, tip);
     g_signal_connect(button, "clicked", callback, strip);
     gtk_box_append(GTK_BOX(box), button);
     return button;
@@ -242,15 +243,13 @@ static GtkWidget *make_clock(StudioTimeStrip *strip) {
     strip->play = gtk_button_new_from_icon_name("media-playback-start-symbolic");
     gtk_widget_add_css_class(strip->play, "flat");
     gtk_widget_set_tooltip_text(strip->play, "Let the clock run");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(strip->play), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Let the clock run", -1);
+    studio_name(strip->play, "Let the clock run");
     g_signal_connect(strip->play, "clicked", G_CALLBACK(on_play), strip);
     strip->scale = gtk_scale_new_with_range(GTK_ORIENTATION_HORIZONTAL, 0, 10, 0.1);
     gtk_scale_set_draw_value(GTK_SCALE(strip->scale), FALSE);
     gtk_widget_set_hexpand(strip->scale, TRUE);
     gtk_widget_set_name(strip->scale, "clock");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(strip->scale), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Time of the plants in years", -1);
+    studio_name(strip->scale, "Time of the plants in years");
     g_signal_connect(strip->scale, "value-changed", G_CALLBACK(on_scale), strip);
     strip->years = gtk_label_new("");
     gtk_label_set_width_chars(GTK_LABEL(strip->years), 19);
@@ -258,10 +257,12 @@ static GtkWidget *make_clock(StudioTimeStrip *strip) {
     strip->span = gtk_spin_button_new_with_range(1, 1000, 1);
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(strip->span), 10);
     gtk_widget_set_tooltip_text(strip->span, "Years from end to end");
+    studio_name(strip->span, "Years from end to end");
     g_signal_connect(strip->span, "value-changed", G_CALLBACK(on_span), strip);
     strip->back = gtk_button_new_from_icon_name("edit-clear-symbolic");
     gtk_widget_add_css_class(strip->back, "flat");
     gtk_widget_set_tooltip_text(strip->back, "Show the time that the document says");
+    studio_name(strip->back, "Show the time that the document says");
     g_signal_connect(strip->back, "clicked", G_CALLBACK(on_back), strip);
     GtkWidget *parts[] = {strip->play, strip->scale, strip->years, strip->back, strip->span};
     for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) {
@@ -284,8 +285,7 @@ static GtkWidget *make_steps(StudioTimeStrip *strip) {
     g_signal_connect(strip->steps, "output", G_CALLBACK(on_steps_output), NULL);
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(strip->steps), -1);
     gtk_spin_button_update(GTK_SPIN_BUTTON(strip->steps));
-    gtk_accessible_update_property(GTK_ACCESSIBLE(strip->steps), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Steps of the L-system", -1);
+    studio_name(strip->steps, "Steps of the L-system");
     g_signal_connect(strip->steps, "value-changed", G_CALLBACK(on_steps), strip);
     gtk_box_append(GTK_BOX(box), name);
     gtk_box_append(GTK_BOX(box), strip->steps);

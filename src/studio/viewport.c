@@ -1,5 +1,7 @@
 #include "studio/viewport_private.h"
 
+#include "studio/accessible.h"
+
 #include <math.h>
 
 static const double rest_seconds = 0.2; // without a move the view rests
@@ -249,6 +251,7 @@ static void studio_viewport_finalize(GObject *object) {
 static void studio_viewport_class_init(StudioViewportClass *class) {
     G_OBJECT_CLASS(class)->finalize = studio_viewport_finalize;
     gtk_widget_class_set_accessible_role(GTK_WIDGET_CLASS(class), GTK_ACCESSIBLE_ROLE_IMG);
+    gtk_widget_class_set_css_name(GTK_WIDGET_CLASS(class), "plantview");
     GType type = G_TYPE_FROM_CLASS(class);
     signals[SIGNAL_READY] =
         g_signal_new("ready", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
@@ -268,10 +271,10 @@ static void studio_viewport_init(StudioViewport *viewport) {
                                         .has_grid = true,
                                         .is_dark = true};
     gtk_gl_area_set_required_version(area, 3, 3);
-    gtk_gl_area_set_auto_render(area, FALSE);
+    // Else a frame that GTK draws for its own reasons, as for the focus, may show an older picture.
+    gtk_gl_area_set_auto_render(area, TRUE);
     gtk_widget_set_focusable(GTK_WIDGET(viewport), TRUE);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(viewport), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Picture of the plants", -1);
+    studio_name(GTK_WIDGET(viewport), "Picture of the plants");
     g_signal_connect(area, "realize", G_CALLBACK(on_realize), NULL);
     g_signal_connect(area, "unrealize", G_CALLBACK(on_unrealize), NULL);
     g_signal_connect(area, "resize", G_CALLBACK(on_resize), NULL);

@@ -1,5 +1,6 @@
 #include "studio/views_menu.h"
 
+#include "studio/accessible.h"
 #include "studio/model/lamp_private.h"
 #include "studio/model/scene_edit.h"
 #include "studio/model/standing.h"
@@ -76,8 +77,7 @@ static GtkWidget *make_row(const char *name) {
     gtk_widget_set_halign(gtk_button_get_child(GTK_BUTTON(go)), GTK_ALIGN_START);
     gtk_widget_set_tooltip_text(go, "See it like this");
     gtk_widget_set_tooltip_text(away, "Remove the view");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(away), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Remove the view", -1);
+    studio_name(away, "Remove the view");
     g_signal_connect(go, "clicked", G_CALLBACK(on_go), NULL);
     g_signal_connect(away, "clicked", G_CALLBACK(on_remove), NULL);
     GtkWidget *const buttons[] = {go, away};
@@ -96,8 +96,7 @@ static GtkWidget *make_entry(guint count) {
     gtk_editable_set_text(GTK_EDITABLE(entry), name);
     g_free(name);
     gtk_widget_set_tooltip_text(entry, "What the view is called");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "What the view is called", -1);
+    studio_name(entry, "What the view is called");
     g_signal_connect(entry, "activate", G_CALLBACK(on_save), entry);
     g_signal_connect(button, "clicked", G_CALLBACK(on_save), entry);
     gtk_box_append(GTK_BOX(row), entry);
@@ -197,8 +196,7 @@ GtkWidget *studio_views_button_new(StudioWindow *window) {
     gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "camera-photo-symbolic");
     gtk_menu_button_set_create_popup_func(GTK_MENU_BUTTON(button), make_list, window, NULL);
     gtk_widget_set_tooltip_text(button, "Views of this document");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Views of this document", -1);
+    studio_name(button, "Views of this document");
     gtk_widget_set_name(button, "views");
     return button;
 }

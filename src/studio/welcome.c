@@ -1,4 +1,5 @@
 /// The page of a window without a document: presets, recent documents, and what a crash has left.
+#include "studio/accessible.h"
 #include "studio/preset_cards.h"
 #include "studio/window_private.h"
 
@@ -57,15 +58,16 @@ static GtkWidget *make_row(const char *title, const char *subtitle, const char *
     return row;
 }
 
-static GtkWidget *make_list(void) {
+static GtkWidget *make_list(const char *name) {
     GtkWidget *list = gtk_list_box_new();
     gtk_list_box_set_selection_mode(GTK_LIST_BOX(list), GTK_SELECTION_NONE);
     gtk_widget_add_css_class(list, "boxed-list");
+    studio_name(list, name);
     return list;
 }
 
 static GtkWidget *make_recent(StudioWindow *window) {
-    GtkWidget *list = make_list();
+    GtkWidget *list = make_list("Documents");
     gtk_list_box_append(GTK_LIST_BOX(list),
                         make_row("Open a document…", "A .frond file", "document-open-symbolic"));
     char **paths = studio_settings_recent(window->settings);
@@ -138,7 +140,7 @@ static GtkWidget *make_left(StudioWindow *window) {
         g_ptr_array_unref(left);
         return NULL;
     }
-    GtkWidget *list = make_list();
+    GtkWidget *list = make_list("What was not saved");
     for (guint i = 0; i < left->len; i++) {
         const StudioLeft *what = g_ptr_array_index(left, i);
         GtkWidget *row = make_row(what->name != NULL ? what->name : "A plant",

@@ -264,6 +264,13 @@ static void do_set(GSimpleAction *action, GVariant *parameter, gpointer data) {
     g_strfreev(parts);
 }
 
+// The keyboard goes on in the inspector.
+static void do_inspect(GSimpleAction *action, GVariant *parameter, gpointer data) {
+    (void)action;
+    (void)parameter;
+    gtk_widget_child_focus(GTK_WIDGET(((StudioWindow *)data)->inspector), GTK_DIR_TAB_FORWARD);
+}
+
 static void do_select(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
     StudioWindow *window = data;
@@ -397,6 +404,7 @@ void studio_window_add_actions(StudioWindow *window) {
         {.name = "hide", .activate = do_hide},
         {.name = "set", .activate = do_set, .parameter_type = "s"},
         {.name = "select", .activate = do_select, .parameter_type = "s"},
+        {.name = "inspect", .activate = do_inspect},
         {.name = "frame", .activate = do_frame},
         {.name = "zoom", .activate = do_zoom, .parameter_type = "d"},
         {.name = "mode", .parameter_type = "s", .state = "'shaded'", .change_state = do_mode},

@@ -2,6 +2,7 @@
 #include "studio/window_private.h"
 
 #include "frond/pick.h"
+#include "studio/accessible.h"
 #include "studio/model/values.h"
 
 #include <math.h>
@@ -22,6 +23,9 @@ static void show_amount(StudioWindow *window, const StudioTimes *times, bool is_
     char *text = g_strdup_printf("%s   %s%s", leaves, triangles, time);
     gtk_label_set_text(GTK_LABEL(window->amount), text);
     gtk_widget_set_visible(window->amount, TRUE);
+    char *words = g_strdup_printf("%s, %s", leaves, triangles);
+    studio_describe(GTK_WIDGET(window->viewport), words);
+    g_free(words);
     g_free(text);
     g_free(time);
     g_free(triangles);

@@ -1,4 +1,5 @@
 /// What a window is made of.
+#include "studio/accessible.h"
 #include "studio/model/graph.h"
 #include "studio/views_menu.h"
 #include "studio/window_private.h"
@@ -52,7 +53,7 @@ static GtkWidget *icon_button(const char *icon, const char *action, const char *
     GtkWidget *button = gtk_button_new_from_icon_name(icon);
     gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
     gtk_widget_set_tooltip_text(button, tip);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+    studio_name(button, tip);
     return button;
 }
 
@@ -83,6 +84,7 @@ static GtkWidget *make_menu_button(void) {
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
     gtk_menu_button_set_primary(GTK_MENU_BUTTON(button), TRUE);
     gtk_widget_set_tooltip_text(button, "Main menu");
+    studio_name(button, "Main menu");
     g_object_unref(first);
     g_object_unref(second);
     g_object_unref(menu);
@@ -134,8 +136,7 @@ static GtkWidget *make_add(void) {
     gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
     gtk_widget_set_tooltip_text(button, "Add a component to the selected one");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Add a component", -1);
+    studio_name(button, "Add a component");
     g_object_unref(menu);
     return button;
 }
@@ -217,7 +218,7 @@ static GtkWidget *make_modes(StudioWindow *window) {
     gtk_button_set_icon_name(GTK_BUTTON(wind), "weather-windy-symbolic");
     gtk_actionable_set_action_name(GTK_ACTIONABLE(wind), "win.wind");
     gtk_widget_set_tooltip_text(wind, "Let a wind blow, to look at (W)");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(wind), GTK_ACCESSIBLE_PROPERTY_LABEL, "Wind", -1);
+    studio_name(wind, "Wind");
     gtk_box_append(GTK_BOX(tools), wind);
     gtk_box_append(GTK_BOX(tools), icon_button("zoom-fit-best-symbolic", "win.frame",
                                                "Show what is selected, or all (F)"));
@@ -329,6 +330,8 @@ GtkWidget *studio_window_make_panes(StudioWindow *window) {
     gtk_widget_set_size_request(GTK_WIDGET(window->inspector), 280, -1);
     window->inner = gtk_paned_new(GTK_ORIENTATION_HORIZONTAL);
     window->outer = gtk_paned_new(GTK_ORIENTATION_HORIZONTAL);
+    studio_name(window->inner, "Divider between picture and inspector");
+    studio_name(window->outer, "Divider between panel and picture");
     GtkPaned *inner = GTK_PANED(window->inner), *outer = GTK_PANED(window->outer);
     gtk_paned_set_start_child(inner, make_middle(window));
     gtk_paned_set_end_child(inner, GTK_WIDGET(window->inspector));

@@ -1,5 +1,6 @@
 /// Presets of the user: a part of a plant is kept as one, called otherwise, removed; and any preset
 /// is put into the graph of a plant.
+#include "studio/accessible.h"
 #include "studio/model/presets.h"
 #include "studio/model/subgraph.h"
 #include "studio/preset_cards.h"
@@ -72,8 +73,7 @@ static Asked *ask_name(StudioWindow *window, const char *heading, const char *bo
                      verb};
     gtk_entry_set_activates_default(GTK_ENTRY(entry), TRUE);
     gtk_widget_set_name(entry, "preset-name");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   "Name of the preset", -1);
+    studio_name(entry, "Name of the preset");
     gtk_widget_add_css_class(note, "dim-label");
     gtk_label_set_wrap(GTK_LABEL(note), TRUE);
     gtk_label_set_xalign(GTK_LABEL(note), 0);

@@ -4,7 +4,9 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import time
+import traceback
 
 STUDIO = os.environ.get("FROND_STUDIO", "build/src/studio/frond-studio")
 
@@ -45,10 +47,49 @@ class Display:
         self.server.wait()
 
 
-class Studio:
-    """The program, with settings and recovery in a folder of its own."""
+class Bus:
+    """A session bus of its own, over which a program tells screen readers what it shows."""
 
-    def __init__(self, display, home, *arguments):
+    READER = "/usr/bin/python3"  # Debian's: it has the bindings
+
+    @classmethod
+    def why_not(cls):
+        """Why nothing can be read here, or None."""
+        if shutil.which("dbus-daemon") is None:
+            return "dbus-daemon is not installed"
+        bindings = "import gi; gi.require_version('Atspi', '2.0'); from gi.repository import Atspi"
+        try:
+            subprocess.run([cls.READER, "-c", bindings], check=True, stderr=subprocess.DEVNULL)
+        except (OSError, subprocess.CalledProcessError):
+            return "gir1.2-atspi-2.0 or python3-gi is not installed"
+        if not os.path.exists("/usr/share/dbus-1/services/org.a11y.Bus.service"):
+            return "at-spi2-core is not installed"
+        return None
+
+    def __init__(self, display, home):
+        self.environment = dict(os.environ, DISPLAY=display.name, XDG_RUNTIME_DIR=home)
+        self.daemon = subprocess.Popen(
+            ["dbus-daemon", "--session", "--nofork", "--print-address=1"],
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=self.environment)
+        self.environment["DBUS_SESSION_BUS_ADDRESS"] = self.daemon.stdout.readline().strip()
+
+    def read(self):
+        """What is told: a tree of dictionaries for each program."""
+        reader = os.path.join(os.path.dirname(os.path.abspath(__file__)), "accessible_tree.py")
+        answer = subprocess.run([self.READER, reader], check=True, capture_output=True, text=True,
+                                timeout=120, env=self.environment)
+        return json.loads(answer.stdout)
+
+    def close(self):
+        self.daemon.terminate()
+        self.daemon.wait()
+
+
+class Studio:
+    """The program, with settings and recovery in a folder of its own. With a bus it tells screen
+    readers what it shows; `variables` are of its environment."""
+
+    def __init__(self, display, home, *arguments, bus=None, variables=None):
         self.environment = dict(
             os.environ, DISPLAY=display.name, GDK_BACKEND="x11", GTK_A11Y="none",
             GSETTINGS_BACKEND="memory", LIBGL_ALWAYS_SOFTWARE="1", LC_ALL="C.UTF-8",
@@ -56,6 +97,9 @@ class Studio:
             HOME=home, XDG_CONFIG_HOME=os.path.join(home, "config"),
             XDG_STATE_HOME=os.path.join(home, "state"),
             XDG_DATA_HOME=os.path.join(home, "data"))
+        if bus is not None:
+            self.environment.update(bus.environment, GTK_A11Y="atspi")
+        self.environment.update(variables or {})
         self.program = subprocess.Popen(
             [STUDIO, "--drive", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             stderr=subprocess.PIPE, text=True, env=self.environment)
@@ -138,3 +182,20 @@ class Studio:
     def kill(self):
         self.program.kill()
         self.program.wait()
+
+
+def run_tests(tests, run):
+    """Tells in TAP how each test went; `run` is what they are handed."""
+    print(f"1..{len(tests)}", flush=True)
+    try:
+        for number, test in enumerate(tests, 1):
+            try:
+                test(run)
+                print(f"ok {number} {test.__doc__}", flush=True)
+            except Exception:  # the next ones may well work
+                print(f"not ok {number} {test.__doc__}")
+                for line in traceback.format_exc().splitlines():
+                    print("# " + line)
+                sys.stdout.flush()
+    finally:
+        run.close()

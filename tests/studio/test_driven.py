@@ -7,7 +7,6 @@ import shutil
 import sys
 import tempfile
 import time
-import traceback
 
 import studio_driver as driver
 
@@ -622,20 +621,7 @@ def main():
         return
     # A word leaves out the tests that have it in their names.
     tests = [test for test in TESTS if not any(word in test.__name__ for word in sys.argv[1:])]
-    print(f"1..{len(tests)}", flush=True)
-    run = Run()
-    try:
-        for number, test in enumerate(tests, 1):
-            try:
-                test(run)
-                print(f"ok {number} {test.__doc__}", flush=True)
-            except Exception:  # the next ones may well work
-                print(f"not ok {number} {test.__doc__}")
-                for line in traceback.format_exc().splitlines():
-                    print("# " + line)
-                sys.stdout.flush()
-    finally:
-        run.close()
+    driver.run_tests(tests, Run())
 
 
 if __name__ == "__main__":
