@@ -20,8 +20,8 @@ static void on_chosen(GtkDropDown *list, GParamSpec *spec, gpointer data) {
     GtkWidget *button = button_inside(GTK_WIDGET(list));
     GObject *item = gtk_drop_down_get_selected_item(list);
     if (button != NULL && GTK_IS_STRING_OBJECT(item)) {
-        char *text = g_strdup_printf("%s: %s", name,
-                                     gtk_string_object_get_string(GTK_STRING_OBJECT(item)));
+        char *text =
+            g_strdup_printf("%s: %s", name, gtk_string_object_get_string(GTK_STRING_OBJECT(item)));
         set_label(button, text);
         g_free(text);
     } else if (button != NULL) {
