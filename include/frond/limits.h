@@ -16,6 +16,7 @@
     X(depth, 4096, "generations of a recursion")                                                   \
     X(scopes, 64, "deformations or fields within one another")                                     \
     X(modules, 400000000, "modules of the string of an L-system")                                  \
+    X(steps, 1000000000, "steps of the derivation of an L-system")                                 \
     X(iterations, 100000000, "times around the loops of an L-system in one step")                  \
     X(plants, 100000, "plants of a scene")                                                         \
     X(photons, 20000000, "photons of one light")                                                   \

@@ -73,6 +73,23 @@ FrStatus fr_io_meshes_make(FrIoMeshes *meshes, const FrScene *scene, const FrSki
     return status;
 }
 
+FrSpan fr_io_largest_place(const FrIoMeshes *meshes, const FrScene *scene) {
+    uint64_t most = 0;
+    FrSpan place = {0};
+    for (uint32_t p = 0; p < meshes->length; p++) {
+        const FrMesh *mesh = meshes->meshes[p];
+        uint64_t triangles =
+            mesh == NULL
+                ? 0
+                : fr_count_multiply(mesh->index_count / 3, fr_io_stand_count(&meshes->stands, p));
+        if (triangles > most) {
+            most = triangles;
+            place = fr_plant_place(fr_io_plant(scene, p));
+        }
+    }
+    return place;
+}
+
 void fr_io_meshes_clear(FrIoMeshes *meshes) {
     for (uint32_t p = 0; p < meshes->length; p++) {
         fr_mesh_free(meshes->meshes[p]);

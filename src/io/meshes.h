@@ -28,6 +28,8 @@ typedef struct FrIoMeshes {
 /// that counts against the limit of triangles.
 FrStatus fr_io_meshes_make(FrIoMeshes *meshes, const FrScene *scene, const FrSkinParams *skin,
                            FrUpAxis up, bool expands, const FrContext *context);
+/// Where the plant is described of which most triangles stand in the scene.
+FrSpan fr_io_largest_place(const FrIoMeshes *meshes, const FrScene *scene);
 void fr_io_meshes_clear(FrIoMeshes *meshes);
 
 const FrPlant *fr_io_plant(const FrScene *scene, uint32_t plant);

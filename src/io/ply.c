@@ -86,7 +86,7 @@ FrStatus fr_ply_write(const FrScene *scene, const char *path, const FrIoOptions 
     gint64 skinned = g_get_monotonic_time();
     const FrIoCount *count = &ply.meshes.count;
     status = fr_limit_check(count->vertices_everywhere, UINT32_MAX, "vertices", "a .ply file",
-                            (FrSpan){0}, context->diags);
+                            fr_io_largest_place(&ply.meshes, scene), context->diags);
     if (status == FR_OK) {
         status = fr_io_replace_file(path, write_ply, &ply, context->diags);
     }

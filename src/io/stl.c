@@ -82,7 +82,7 @@ FrStatus fr_stl_write(const FrScene *scene, const char *path, const FrIoOptions 
     gint64 skinned = g_get_monotonic_time();
     const FrIoCount *count = &stl.meshes.count;
     status = fr_limit_check(count->triangles_everywhere, UINT32_MAX, "triangles", "a .stl file",
-                            (FrSpan){0}, context->diags);
+                            fr_io_largest_place(&stl.meshes, scene), context->diags);
     if (status == FR_OK) {
         status = fr_io_replace_file(path, write_stl, &stl, context->diags);
     }

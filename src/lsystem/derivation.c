@@ -9,7 +9,6 @@
 
 #define MOST_INSTANCES 65535
 #define MOST_VARIABLES 64000000
-#define MOST_STEPS 1000000000
 #define DEEPEST 4096 // replacements within each other
 
 FrLsettings fr_lsettings_default(void) {
@@ -282,17 +281,11 @@ static void seed_choice(FrLderivation *derivation, const FrLunit *unit) {
 
 static FrStatus check_length(const FrLderivation *derivation, const FrLunit *unit,
                              const FrContext *context) {
-    if (derivation->length <= MOST_STEPS) {
-        return FR_OK;
-    }
-    char amount[32] = "over 10^15"; // where bits may have been lost
-    if (derivation->length <= 1000000000000000) {
-        g_snprintf(amount, sizeof amount, "%" G_GINT64_FORMAT, derivation->length);
-    }
-    fr_diags_add(context->diags, FR_ERROR, "limit-steps",
-                 place_span(derivation->system, unit->length),
-                 "the derivation length is %s; at most %d steps are done", amount, MOST_STEPS);
-    return FR_ERR_LIMIT;
+    // Beyond 10^15 bits may have been lost.
+    uint64_t wanted =
+        derivation->length > 1000000000000000 ? UINT64_MAX : (uint64_t)derivation->length;
+    return fr_limit_check(wanted, context->limits.steps, "steps", "the derivation length",
+                          place_span(derivation->system, unit->length), context->diags);
 }
 
 /// The derivation length of the text or the settings.

@@ -365,6 +365,7 @@ FrStatus fr_lderivation_draw(FrLderivation *derivation, const FrContext *context
         *drawn = builder->drawn;
     }
     if (status == FR_OK) {
+        fr_lturtle_warn_of_open(&turtle);
         g_clear_pointer(&derivation->origins, g_array_unref);
         derivation->origins = g_steal_pointer(&builder->origins);
         g_clear_pointer(&derivation->organ_origins, g_array_unref);

@@ -120,6 +120,7 @@ typedef struct FrLturtle {
 typedef struct FrLpolygon {
     FrLpose pose;
     uint32_t first; ///< corner
+    uint32_t maker; ///< mark of what began it
 } FrLpolygon;
 
 void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuilder *builder,
@@ -168,6 +169,8 @@ static inline vec3s fr_lturtle_world(const double v[3]) {
 /// `{` and `}`.
 void fr_lturtle_open_shape(FrLturtle *turtle, const uint32_t *module);
 void fr_lturtle_close_shape(FrLturtle *turtle, const uint32_t *module);
+/// Warns, at the end of the string, of polygons that are open still.
+void fr_lturtle_warn_of_open(const FrLturtle *turtle);
 /// `.`: a corner of a polygon or a control point of a cylinder.
 void fr_lturtle_dot(FrLturtle *turtle, const uint32_t *module);
 /// Adds the turtle's place to the polygon that is open.

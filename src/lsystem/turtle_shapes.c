@@ -25,8 +25,18 @@ void fr_lturtle_open_shape(FrLturtle *turtle, const uint32_t *module) {
         fr_lspline_begin(turtle, fr_lturtle_int(kind),
                          fr_lturtle_int(fr_lturtle_value(module, 1, 0)));
     } else if (turtle->polygons->len < MOST_POLYGONS) {
-        FrLpolygon polygon = {turtle->pose, turtle->corners->len};
+        FrLpolygon polygon = {turtle->pose, turtle->corners->len, fr_lhead_mark(*module)};
         g_array_append_val(turtle->polygons, polygon);
+    }
+}
+
+void fr_lturtle_warn_of_open(const FrLturtle *turtle) {
+    if (turtle->polygons->len > 0) {
+        FrSpan span;
+        uint32_t maker = g_array_index(turtle->polygons, FrLpolygon, 0).maker;
+        fr_lderivation_maker(turtle->derivation, (uint16_t)maker, &span);
+        fr_diags_add(turtle->context->diags, FR_WARNING, "polygon", span,
+                     "a polygon begins here with '{' and no '}' ends it, so it is not drawn");
     }
 }
 

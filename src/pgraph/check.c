@@ -4,6 +4,7 @@
 #include "pgraph/global.h"
 #include "pgraph/prepare.h"
 
+#include <cglm/struct.h>
 #include <string.h>
 
 static FrStatus check_roots(const FrPgraph *graph, const FrRecursions *recursions, FrDiags *diags,
@@ -95,6 +96,71 @@ static FrStatus check_file(const FrPrototype *prototype, FrDiags *diags) {
     return is_fine ? FR_OK : FR_ERR_DOCUMENT;
 }
 
+static bool is_in_one_place(const GArray *points) {
+    const vec3s *at = (const vec3s *)(const void *)points->data;
+    bool is_one = true;
+    for (guint k = 1; k < points->len && is_one; k++) {
+        is_one = memcmp(at[k].raw, at[0].raw, sizeof at[0].raw) == 0;
+    }
+    return is_one;
+}
+
+// The path that a component follows, if it does.
+static const char *path_of(const FrPrototype *prototype) {
+    const FrStemParams *stem = prototype->params;
+    const FrForceParams *force = prototype->params;
+    const FrFfdParams *ffd = prototype->params;
+    switch (prototype->kind) {
+    case FR_COMPONENT_HORN:
+    case FR_COMPONENT_TREE:
+        return stem->course == FR_COURSE_PATH ? stem->path : NULL;
+    case FR_COMPONENT_FORCE:
+        return force->kind == FR_FORCE_TO_CURVE ? force->path : NULL;
+    case FR_COMPONENT_FFD:
+        return ffd->preset == FR_PRESET_CURVE ? ffd->path : NULL;
+    default:
+        return NULL;
+    }
+}
+
+static void warn_of_outline(const FrPrototype *prototype, const FrPoints *outline, FrDiags *diags) {
+    for (size_t k = 0; k < outline->count; k++) {
+        if (outline->at[k][0] < 0) {
+            fr_diags_add(diags, FR_WARNING, "negative-radius", prototype->span,
+                         "a radius of the outline of '%s' is %g; less than 0 counts as 0",
+                         prototype->id, outline->at[k][0]);
+            return;
+        }
+    }
+}
+
+// What is allowed and yet comes to nothing.
+static void warn_of_own(const FrPrototype *prototype, FrDiags *diags) {
+    const FrStemParams *stem = prototype->params;
+    const FrRevoParams *revo = prototype->params;
+    const FrPhyllotaxisParams *phyllotaxis = prototype->params;
+    const char *path = path_of(prototype);
+    GArray *points = path != NULL ? fr_path_points(path, prototype, NULL) : NULL;
+    if (points != NULL && is_in_one_place(points)) {
+        fr_diags_add(diags, FR_WARNING, "path-without-length", prototype->span,
+                     "the points of the path of '%s' are all in one place, so it has no length",
+                     prototype->id);
+    }
+    g_clear_pointer(&points, g_array_unref);
+    if (prototype->kind == FR_COMPONENT_REVO) {
+        warn_of_outline(prototype, &revo->outline, diags);
+    } else if (prototype->kind == FR_COMPONENT_PHYLLOTAXIS) {
+        warn_of_outline(prototype, &phyllotaxis->outline, diags);
+    }
+    bool aims = (prototype->kind == FR_COMPONENT_HORN || prototype->kind == FR_COMPONENT_TREE) &&
+                !(stem->aim.is_constant && stem->aim.constant == 0);
+    if (aims && glms_vec3_norm(stem->aim_at) == 0) {
+        fr_diags_add(diags, FR_WARNING, "aim-without-direction", prototype->span,
+                     "'%s' aims at 0,0,0, which is no direction, so it turns nowhere",
+                     prototype->id);
+    }
+}
+
 static FrStatus check_own(const FrPgraph *graph, uint32_t component, FrDiags *diags) {
     const FrPrototype *prototype = fr_pgraph_prototype(graph, component);
     if (prototype->kind == FR_COMPONENT_VARIATION) {
@@ -148,6 +214,9 @@ FrStatus fr_pgraph_check_all(const FrPgraph *graph, const FrRecursions *recursio
     FrStatus roots = check_roots(graph, recursions, diags, with_warnings);
     FrStatus endless = check_recursions(graph, recursions, diags, with_warnings);
     FrStatus texts = check_texts(graph, diags);
+    for (uint32_t c = 0; c < fr_pgraph_count(graph) && with_warnings; c++) {
+        warn_of_own(fr_pgraph_prototype(graph, c), diags);
+    }
     return roots != FR_OK ? roots : endless != FR_OK ? endless : texts;
 }
 

@@ -2,6 +2,8 @@
 #include "pgraph/expand.h"
 #include "pgraph/kept.h"
 
+#include <string.h>
+
 static gint compare_faults(gconstpointer a, gconstpointer b) {
     const FrValueFault *p = *(FrValueFault *const *)a;
     const FrValueFault *q = *(FrValueFault *const *)b;
@@ -47,6 +49,13 @@ void fr_build_report_faults(const FrBuild *build, int workers) {
     for (guint k = 0; k < sorted->len; k++) {
         const FrValueFault *fault = g_ptr_array_index(sorted, k);
         const FrPrototype *prototype = fr_pgraph_prototype(expansion->graph, fault->component);
+        if (strcmp(fault->fault.code, FR_OUTGROWN) == 0) {
+            fr_diags_add(build->context->diags, FR_WARNING, FR_OUTGROWN, prototype->span,
+                         "the scales of '%s' and all that it stands on come to more than %g times; "
+                         "so much larger it is made, and no more",
+                         prototype->id, FR_LARGEST_SCALE);
+            continue;
+        }
         char *attribute = parameter_name(prototype, fault->parameter);
         char *what = g_strdup_printf("%s of '%s'", attribute, prototype->id);
         fr_expr_report_fault(&fault->fault, what, build->context->diags);

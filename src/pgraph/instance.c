@@ -13,7 +13,7 @@ static const versors identity = {{0, 0, 0, 1}};
 
 // Sizes stay where floats have room to spare, however deep a recursion goes.
 #define SMALLEST 1e-9
-#define LARGEST 1e9
+#define LARGEST FR_LARGEST_SCALE
 // Positions too: nothing is farther from its bearer than this, in metres.
 #define FARTHEST 1e9f
 // Draws anew have keys that no path has.
@@ -218,6 +218,10 @@ FrPose fr_instance_pose(const FrExpansion *expansion, uint32_t row, FrEvaluator 
     }
     if (level->edit[row] != FR_EDIT_NOWHERE) {
         pose = edited(expansion, row, pose);
+    }
+    if (pose.scale > LARGEST) {
+        const FrExprFault fault = {.code = FR_OUTGROWN};
+        fr_value_note(evaluator, stage->component, FR_BASIC_scale, &fault);
     }
     pose.scale = fmax(SMALLEST, fmin(pose.scale, LARGEST));
 #undef FR_GET

@@ -1,6 +1,7 @@
 // Places, counts and copies organs.
 #include "skin/organs.h"
 
+#include "plant/place.h"
 #include "skin/stream.h"
 
 #include <cglm/struct.h>
@@ -106,7 +107,7 @@ static FrStatus prepare_shapes(FrOrganPlan *organs) {
         bytes += organs->is_used[i] ? fr_shape_bytes_most(plant, shape, &plan->detail) : 0;
     }
     FrStatus status = fr_limit_check(bytes, context->limits.bytes, "bytes", "shapes of organs",
-                                     (FrSpan){0}, context->diags);
+                                     fr_plant_place(plant), context->diags);
     if (status == FR_OK) {
         fr_parallel_for(context->pool, plant->shapes->len, 8, make_shapes, organs,
                         context->progress);

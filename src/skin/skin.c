@@ -1,6 +1,7 @@
 // Plant → mesh: plan, count, allocate once, write in parallel.
 #include "frond/skin.h"
 
+#include "plant/place.h"
 #include "skin/job.h"
 #include "skin/mesh.h"
 #include "skin/patch.h"
@@ -159,7 +160,7 @@ FrStatus fr_skin_shape(const FrPlant *plant, uint32_t shape, const FrSkinParams 
     FrShapeMesh form;
     fr_shape_mesh_init(&form, plant, shape, &detail);
     FrStatus status = fr_limit_check(form.index_count / 3, context->limits.triangles, "triangles",
-                                     "shape", (FrSpan){0}, context->diags);
+                                     "shape", fr_plant_place(plant), context->diags);
     if (status == FR_OK) {
         FrBox box = fr_box_empty();
         FrMesh *made = fr_mesh_new(form.vertex_count, form.index_count, 1);

@@ -216,6 +216,21 @@ static void test_combined(void) {
                3);
 }
 
+static void open_polygons(void) {
+    Derived d;
+    fr_plant_free(draw(&d, "w : A\np1 : A -> {F+(90)F[{F}]\n", 1, NULL));
+    g_assert_cmpuint(fr_diags_count(d.context.diags), ==, 1);
+    const FrDiag *diag = fr_diags_get(d.context.diags, 0);
+    g_assert_cmpstr(diag->code, ==, "polygon");
+    uint32_t line, column;
+    fr_source_position(diag->span.source, diag->span.begin, &line, &column);
+    g_assert_cmpuint(line, ==, 2);
+    end(&d);
+    fr_plant_free(draw(&d, "w : {F+(90)F[{F}]}\n", 0, NULL));
+    g_assert_cmpuint(fr_diags_count(d.context.diags), ==, 0);
+    end(&d);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/lsystem/turtle/symbols turn and move as defined", test_symbols);
@@ -229,5 +244,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/lsystem/turtle/branches bend to the light", test_bending);
     g_test_add_func("/lsystem/turtle/intensity sets sizes", test_intensity);
     g_test_add_func("/lsystem/turtle/intensity limits bending", test_combined);
+    g_test_add_func("/lsystem/turtle/a polygon that nothing ends is told with its production",
+                    open_polygons);
     return g_test_run();
 }

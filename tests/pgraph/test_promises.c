@@ -199,6 +199,46 @@ static void wrong_graphs(void) {
     }
 }
 
+static void assert_warned(const char *text, const char *code) {
+    FrDiags *diags = fr_diags_new();
+    FrPgraph *graph = graph_read(text);
+    g_assert_cmpint(fr_pgraph_check(graph, diags), ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(diags), ==, code != NULL ? 1 : 0);
+    if (code != NULL) {
+        g_assert_cmpstr(fr_diags_get(diags, 0)->code, ==, code);
+        g_assert_nonnull(strstr(fr_diags_get(diags, 0)->text, "'A'"));
+    }
+    fr_pgraph_free(graph);
+    fr_diags_free(diags);
+}
+
+static void comes_to_nothing(void) {
+    assert_warned("revo A outline=-1,0 1,1 0,2", "negative-radius");
+    assert_warned("phyllotaxis A outline=1,0 -0.5,1", "negative-radius");
+    assert_warned("revo A outline=1,0 0,-1", NULL);
+    assert_warned("horn A course=path;path=1,2,3 1,2,3 1,2,3", "path-without-length");
+    assert_warned("ffd A preset=curve;path=0,0,0 0,0,0", "path-without-length");
+    assert_warned("force A kind=curve;path=0,0,1 0,0,1", "path-without-length");
+    assert_warned("horn A path=1,2,3 1,2,3", NULL); // not followed
+    assert_warned("horn A course=path;path=1,2,3 1,2,4 1,2,3", NULL);
+    assert_warned("horn A aim=.5;aim-at=0,0,0", "aim-without-direction");
+    assert_warned("tree A aim=0..1;aim-at=0,0,0", "aim-without-direction");
+    assert_warned("horn A aim-at=0,0,0", NULL);
+}
+
+static void outgrown(void) {
+    // 100 to the fourth is 10^8, to the fifth 10^10.
+    const char *text = "horn A depth=%d;recursion-scale=100;length=1e-6;radius=1e-7\nA - A";
+    for (int depth = 5; depth <= 6; depth++) {
+        char *own = g_strdup_printf(text, depth);
+        Built built = build_graph(graph_read(own), NULL);
+        g_assert_cmpint(built.status, ==, FR_OK);
+        g_assert_cmpint(built_has(&built, "outgrown"), ==, depth == 6);
+        built_free(built);
+        g_free(own);
+    }
+}
+
 static void warnings(void) {
     FrDiags *diags = fr_diags_new();
     FrPgraph *graph = graph_read("camera C\nhorn A depth=3\nhorn B\nC - A");
@@ -305,5 +345,8 @@ int main(int argc, char **argv) {
     TEST("extreme values make sound plants", extremes);
     TEST("a cancelled build leaves nothing", cancelled);
     TEST("tables have sound rows", tables_are_sound);
+    g_test_add_func("/pgraph/promises/outlines, paths and aims that come to nothing are told",
+                    comes_to_nothing);
+    g_test_add_func("/pgraph/promises/scales that outgrow numbers are told", outgrown);
     return g_test_run();
 }
