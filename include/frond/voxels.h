@@ -4,8 +4,8 @@
 ///
 /// A cell is free, solid (an obstacle), or owned: the number of a branch. Bits of a brick of one
 /// kind fill one cache line, so most questions touch no more. In a round of proposals free cells
-/// can also be *asked* for, and those that several ask for *claimed*: the smallest number gets it,
-/// in whatever order they ask.
+/// can also be *asked* for: they bear the number of who is the first of all that ask, and become
+/// owned as soon as they are marked as *taken*.
 #pragma once
 
 #include "frond/context.h"
@@ -22,8 +22,6 @@ enum {
 #define FR_VOXEL_FREE UINT32_MAX
 #define FR_VOXEL_SOLID (UINT32_MAX - 1)
 #define FR_VOXEL_GROUND (UINT32_MAX - 2)
-/// Tells claims, which are below it like the numbers of branches, from these.
-#define FR_VOXEL_CLAIM 0x80000000u
 
 typedef struct FrCell {
     int16_t at[3]; ///< 0 … FR_VOXELS_WIDTH − 1
@@ -31,12 +29,14 @@ typedef struct FrCell {
 
 /// 8³ cells. Bit y·8 + x of word z.
 typedef struct FrBrick {
-    uint64_t taken[8];  ///< owned or solid
-    uint64_t asked[8];  ///< claimed
+    uint64_t taken[8]; ///< owned or solid
+    uint64_t asked[8]; ///< free, and asked for
+    uint32_t *owners;  ///< by fr_voxels_slot(); where nobody owns a cell, who asks for it; NULL: no
+                       ///< branches in here
+    uint64_t contested; ///< by fr_voxels_cube(): several have asked for one of its cells, once
+    uint64_t rest[6];   ///< of the cache line
     uint64_t solid[8];  ///< an obstacle
     uint64_t ground[8]; ///< … that roots pass
-    uint32_t *owners;   ///< by fr_voxels_slot(); where nobody owns a cell, what claims it; NULL: no
-                        ///< branches in here
 } FrBrick;
 
 /// Bricks hang in blocks of 8³, blocks in a table of 64³. Inside obstacles all places share one
@@ -138,10 +138,14 @@ static inline unsigned fr_voxels_bit(FrCell cell) {
     return ((unsigned)cell.at[1] & 7) * 8 + ((unsigned)cell.at[0] & 7);
 }
 
-/// Where a brick keeps the owner of a bit of a layer: the eight of a cube of 2³ lie together.
+/// Number of the cube of 2³ cells that a bit of a layer is in.
+static inline unsigned fr_voxels_cube(unsigned layer, unsigned bit) {
+    return (layer >> 1) * 16 + (bit >> 4) * 4 + (bit >> 1 & 3);
+}
+
+/// Where a brick keeps the owner of a bit of a layer: the eight of a cube lie together.
 static inline unsigned fr_voxels_slot(unsigned layer, unsigned bit) {
-    unsigned cube = (layer >> 1) * 16 + (bit >> 4) * 4 + (bit >> 1 & 3);
-    return cube * 8 + (layer & 1) * 4 + (bit >> 3 & 1) * 2 + (bit & 1);
+    return fr_voxels_cube(layer, bit) * 8 + (layer & 1) * 4 + (bit >> 3 & 1) * 2 + (bit & 1);
 }
 
 /// Where the owner of a cell is written, in a brick that has owners.

@@ -6,6 +6,7 @@
 #include "growth/propose.h"
 
 #include <math.h>
+#include <string.h>
 
 static void world_of(const FrGrownPlant *plant, vec3s at, double world[3]) {
     for (int axis = 0; axis < 3; axis++) {
@@ -51,14 +52,24 @@ typedef struct Asked {
     Question question;
 } Asked;
 
-/// True if a claim is that of another bud, comes before, and is not that of one at the same node.
-static bool comes_before(const FrGrowth *growth, const FrProposal *proposal, uint32_t claim) {
-    uint32_t rank = claim & ~FR_VOXEL_CLAIM;
-    if (rank >= proposal->rank) {
+/// True if the first of who ask for a cell is before the bud, and is not one at the same node.
+static bool comes_before(const FrGrowth *growth, const FrProposal *proposal, uint32_t first) {
+    if (first == proposal->own) {
         return false;
     }
-    const FrProposal *other = &growth->proposals[growth->by_rank[rank]];
-    return other->plant != proposal->plant || other->node != proposal->node;
+    FrOwner of = growth->owners[first];
+    bool is_sibling = of.plant == proposal->plant && of.node == proposal->node;
+    return !is_sibling && fr_claim_is_before(growth, first, proposal->own);
+}
+
+/// True for a cell of the segment itself, which box and segment need not both look at.
+static bool is_own_cell(const Asked *asked, FrCell cell) {
+    for (uint32_t k = asked->proposal->cell_count; k-- > 1;) {
+        if (memcmp(&asked->cells[k], &cell, sizeof cell) == 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 static const uint64_t *bits_of(const FrBrick *brick, Question question) {
@@ -69,7 +80,9 @@ static const uint64_t *bits_of(const FrBrick *brick, Question question) {
 static inline bool cell_blocks(const Asked *asked, const FrBrick *brick, FrCell cell) {
     unsigned layer = (unsigned)cell.at[2] & 7, bit = fr_voxels_bit(cell);
     if (asked->question == IS_CLAIMED) {
-        return comes_before(asked->growth, asked->proposal, *fr_voxels_at(brick, cell));
+        bool is_contested = (brick->contested >> fr_voxels_cube(layer, bit) & 1) != 0;
+        return (is_contested || !is_own_cell(asked, cell)) &&
+               comes_before(asked->growth, asked->proposal, *fr_voxels_at(brick, cell));
     }
     uint32_t owner = brick->solid[layer] >> bit & 1
                          ? (brick->ground[layer] >> bit & 1 ? FR_VOXEL_GROUND : FR_VOXEL_SOLID)

@@ -92,6 +92,7 @@ typedef struct FrGrownPlant {
     uint32_t first_growing, first_asleep;       ///< of them, among those of all plants
     uint32_t first_proposal, proposal_count;    ///< in this round
     uint32_t first_owner, owner_count;          ///< new ones of this round
+    uint32_t first_shade, shade_count;          ///< nodes with leaves
     uint32_t born, shed, collisions, contested; ///< in this step
 } FrGrownPlant;
 
@@ -145,6 +146,8 @@ typedef struct FrScratch {
 typedef struct FrOwner {
     uint32_t plant, axis;
     uint32_t bearer; ///< of the axis
+    uint32_t node;   ///< that its apex proposes from in this round
+    uint64_t key;    ///< of the proposal: the smallest comes first
 } FrOwner;
 
 typedef struct FrProposal FrProposal;
@@ -172,15 +175,14 @@ struct FrGrowth {
     uint32_t owner_count, owner_capacity;
     // Memory of a step, kept from step to step.
     FrProposal *proposals;
-    uint32_t *by_rank; ///< proposals in the order of their keys
-    uint32_t *other_rank, *open;
-    uint64_t *sort_keys;
-    FrCell *cells;        ///< of each proposal's segment
-    uint32_t cell_stride; ///< room for the longest
+    uint32_t *open;       ///< those that are not settled yet
+    uint8_t *steps;       ///< between the cells of each proposal's segment
+    uint32_t step_stride; ///< room for the longest
     uint32_t proposal_capacity;
     FrLiveBudAt *live; ///< all live buds, the growing ones first
     uint32_t live_capacity;
     FrScratch *scratch, *drop_scratch; ///< by worker
+    FrScratch shade_memory, sky_memory;
     int scratch_count;
     uint64_t step;
     double seconds, light_seconds; ///< of the last step
@@ -276,6 +278,7 @@ uint64_t fr_grown_bytes(const FrGrownPlant *plant);
 
 /// At least so many bytes, as they are.
 void *fr_scratch_take(FrScratch *scratch, size_t size);
+void fr_scratch_clear(FrScratch *scratch);
 /// Cells of an internode from the tip of `parent` (FR_NONE: the seed) to a place; none if it is too
 /// long.
 uint32_t fr_growth_walk(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t parent,
@@ -291,7 +294,14 @@ FrStatus fr_growth_stand_obstacles(FrGrowth *growth, const FrContext *context);
 /// Room for so many owners of voxels.
 void fr_growth_reserve_owners(FrGrowth *growth, uint32_t count);
 /// True if a node bears leaves now.
-bool fr_grown_is_leafy(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t node);
+static inline bool fr_grown_is_leafy(const FrGrowth *growth, const FrGrownPlant *plant,
+                                     uint32_t node) {
+    const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
+    const FrGrownNodes *nodes = &plant->nodes;
+    return params->leaves > 0 &&
+           growth->step < (uint64_t)nodes->birth[node] + (uint64_t)params->leaf_life &&
+           nodes->light[node] >= params->leaf_light * 255;
+}
 
 // ---- direction.c, sprout.c, wake.c --------------------------------------------------------------
 /// Direction of a growing bud's next internode; trials above 0 lie around the wanted one.

@@ -116,10 +116,11 @@ static void put_proposals(void *data, size_t begin, size_t end, int worker) {
             }
             FrGrownAxis *axis = &plant->axes[bud->axis];
             if (axis->owner == FR_NONE) {
-                growth->owners[owner] = (FrOwner){(uint32_t)p, bud->axis, axis->bearer};
+                growth->owners[owner] = (FrOwner){(uint32_t)p, bud->axis, axis->bearer, FR_NONE, 0};
                 axis->owner = owner++;
             }
-            growth->sort_keys[next] = fr_random_bits(
+            growth->owners[axis->owner].node = bud->node;
+            growth->owners[axis->owner].key = fr_random_bits(
                 bud->key, FR_CHANCE_CLAIM, (uint32_t)growth->step * 64u + gathering->internode);
             growth->open[next] = next;
             growth->proposals[next] = proposal_of(plant, (uint32_t)p, b);
@@ -132,12 +133,8 @@ static void room_for_proposals(FrGrowth *growth, uint32_t count) {
     if (count > growth->proposal_capacity) {
         growth->proposal_capacity = count + count / 2;
         growth->proposals = g_renew(FrProposal, growth->proposals, growth->proposal_capacity);
-        growth->by_rank = g_renew(uint32_t, growth->by_rank, growth->proposal_capacity);
-        growth->other_rank = g_renew(uint32_t, growth->other_rank, growth->proposal_capacity);
         growth->open = g_renew(uint32_t, growth->open, growth->proposal_capacity);
-        growth->sort_keys = g_renew(uint64_t, growth->sort_keys, growth->proposal_capacity);
-        growth->cells =
-            g_renew(FrCell, growth->cells, (size_t)growth->proposal_capacity * growth->cell_stride);
+        growth->steps = g_realloc_n(growth->steps, growth->proposal_capacity, growth->step_stride);
     }
 }
 

@@ -59,7 +59,7 @@ static FrStatus check_setup(const FrGrowthSetup *setup, double cell, const FrCon
 
 static void take_species(FrGrowth *growth, const FrGrowthSetup *setup) {
     growth->species_count = setup->species_count;
-    growth->cell_stride = 1;
+    uint32_t most = 1;
     fr_shadows_free(growth->shadows); // made anew as the parameters say
     growth->shadows = NULL;
     fr_colony_free(growth->colony);
@@ -70,10 +70,10 @@ static void take_species(FrGrowth *growth, const FrGrowthSetup *setup) {
         growth->species[i] = fr_species_make_ready(&setup->species[i]);
         const FrSpeciesParams *params = &growth->species[i].params;
         if (params->collide) {
-            growth->cell_stride =
-                MAX(growth->cell_stride, (uint32_t)cells_crossed(growth->voxels->cell, params));
+            most = MAX(most, (uint32_t)cells_crossed(growth->voxels->cell, params));
         }
     }
+    growth->step_stride = fr_path_stride(most);
 }
 
 static void drop_species(FrGrowth *growth) {
@@ -189,15 +189,14 @@ void fr_growth_free(FrGrowth *growth) {
     drop_species(growth);
     drop_obstacles(growth);
     g_free(growth->proposals);
-    g_free(growth->by_rank);
     g_free(growth->open);
-    g_free(growth->other_rank);
-    g_free(growth->sort_keys);
-    g_free(growth->cells);
+    g_free(growth->steps);
     g_free(growth->live);
+    fr_scratch_clear(&growth->shade_memory);
+    fr_scratch_clear(&growth->sky_memory);
     for (int i = 0; i < growth->scratch_count; i++) {
-        g_free(growth->scratch[i].memory);
-        g_free(growth->drop_scratch[i].memory);
+        fr_scratch_clear(&growth->scratch[i]);
+        fr_scratch_clear(&growth->drop_scratch[i]);
         g_array_free(growth->fallen[i], TRUE);
     }
     g_free(growth->scratch);
@@ -398,14 +397,6 @@ void fr_growth_reserve_owners(FrGrowth *growth, uint32_t count) {
         growth->owner_capacity = MAX(1024, count + count / 2);
         growth->owners = g_renew(FrOwner, growth->owners, growth->owner_capacity);
     }
-}
-
-bool fr_grown_is_leafy(const FrGrowth *growth, const FrGrownPlant *plant, uint32_t node) {
-    const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
-    const FrGrownNodes *nodes = &plant->nodes;
-    return params->leaves > 0 &&
-           growth->step < (uint64_t)nodes->birth[node] + (uint64_t)params->leaf_life &&
-           nodes->light[node] >= params->leaf_light * 255;
 }
 
 static void count_plant(const FrGrowth *growth, const FrGrownPlant *plant, FrGrowthStats *stats) {

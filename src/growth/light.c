@@ -12,47 +12,69 @@ static uint32_t hash_of(vec3s at) {
                               bits[2] * UINT64_C(0x9e3779b97f4a7c15));
 }
 
-static void add_shade(FrShades *shades, vec3s at, float side) {
-    if (shades->count == shades->capacity) {
-        shades->capacity = MAX(1024, shades->capacity * 2);
-        shades->x = g_renew(float, shades->x, shades->capacity);
-        shades->y = g_renew(float, shades->y, shades->capacity);
-        shades->z = g_renew(float, shades->z, shades->capacity);
-        shades->side = g_renew(float, shades->side, shades->capacity);
-        shades->hash = g_renew(uint32_t, shades->hash, shades->capacity);
+typedef struct Gathering {
+    FrGrowth *growth;
+    FrShades *shades;
+} Gathering;
+
+static void count_shades(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    FrGrowth *growth = ((const Gathering *)data)->growth;
+    for (size_t p = begin; p < end; p++) {
+        FrGrownPlant *plant = &growth->plants[p];
+        plant->shade_count = 0;
+        bool has_shade = fr_species_of(growth, plant)->params.foliage > 0;
+        for (uint32_t i = 0; has_shade && i < plant->nodes.count; i++) {
+            plant->shade_count += fr_grown_is_leafy(growth, plant, i);
+        }
     }
-    uint32_t i = shades->count++;
-    shades->x[i] = at.x;
-    shades->y[i] = at.y;
-    shades->z[i] = at.z;
-    shades->side[i] = side;
-    shades->hash[i] = hash_of(at);
 }
 
-/// Leafy nodes of all plants.
-static void gather_shades(const FrGrowth *growth, FrShades *shades) {
-    for (uint32_t p = 0; p < growth->plant_count; p++) {
+static void put_shades(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const FrGrowth *growth = ((const Gathering *)data)->growth;
+    const FrShades *shades = ((const Gathering *)data)->shades;
+    for (size_t p = begin; p < end; p++) {
         const FrGrownPlant *plant = &growth->plants[p];
         float side = sqrtf((float)fr_species_of(growth, plant)->params.foliage);
-        for (uint32_t i = 0; side > 0 && i < plant->nodes.count; i++) {
+        uint32_t next = plant->first_shade;
+        for (uint32_t i = 0; plant->shade_count > 0 && i < plant->nodes.count; i++) {
             if (fr_grown_is_leafy(growth, plant, i)) {
-                add_shade(shades, fr_grown_tip(plant, i), side);
+                vec3s at = fr_grown_tip(plant, i);
+                shades->x[next] = at.x;
+                shades->y[next] = at.y;
+                shades->z[next] = at.z;
+                shades->side[next] = side;
+                shades->hash[next++] = hash_of(at);
             }
         }
     }
 }
 
+/// Leafy nodes of all plants.
+static FrShades gather_shades(FrGrowth *growth, const FrContext *context) {
+    FrShades shades = {0};
+    Gathering gathering = {growth, &shades};
+    fr_parallel_for(context->pool, growth->plant_count, 1, count_shades, &gathering, NULL);
+    for (uint32_t p = 0; p < growth->plant_count; p++) {
+        growth->plants[p].first_shade = shades.count;
+        shades.count += growth->plants[p].shade_count;
+    }
+    size_t count = shades.count;
+    shades.x = fr_scratch_take(&growth->shade_memory, (count + 1) * 5 * sizeof(float));
+    shades.y = shades.x + count;
+    shades.z = shades.y + count;
+    shades.side = shades.z + count;
+    shades.hash = (uint32_t *)(void *)(shades.side + count);
+    fr_parallel_for(context->pool, growth->plant_count, 1, put_shades, &gathering, NULL);
+    return shades;
+}
+
 static void look_at_sky(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count,
                         const FrContext *context) {
-    FrShades shades = {0};
-    gather_shades(growth, &shades);
+    FrShades shades = gather_shades(growth, context);
     FrSky sky = fr_sky_of(growth);
     fr_sky_look(growth, &sky, &shades, buds, count, context);
-    g_free(shades.x);
-    g_free(shades.y);
-    g_free(shades.z);
-    g_free(shades.side);
-    g_free(shades.hash);
 }
 
 // ---- shadows ----------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 #include "growth/engine.h"
 
 #include <string.h>
+#include <sys/mman.h>
 
 static uint32_t more(uint32_t capacity) {
     return capacity < 16 ? 16 : capacity + capacity / 2;
@@ -125,10 +126,20 @@ vec3s fr_grown_base(const FrGrownPlant *plant, uint32_t node) {
 }
 
 void *fr_scratch_take(FrScratch *scratch, size_t size) {
+    enum { HUGE_PAGE = 1 << 21 };
     if (size > scratch->size) {
-        g_free(scratch->memory);
+        fr_scratch_clear(scratch);
         scratch->size = size + size / 2;
-        scratch->memory = g_malloc(scratch->size);
+        scratch->memory =
+            g_aligned_alloc(1, scratch->size, scratch->size < HUGE_PAGE ? 64 : HUGE_PAGE);
+        if (scratch->size >= HUGE_PAGE) { // large pages, where the machine has them
+            madvise(scratch->memory, scratch->size & ~(size_t)(HUGE_PAGE - 1), MADV_HUGEPAGE);
+        }
     }
     return scratch->memory;
+}
+
+void fr_scratch_clear(FrScratch *scratch) {
+    g_aligned_free(scratch->memory);
+    *scratch = (FrScratch){0};
 }

@@ -1,6 +1,10 @@
 // Proposals of new internodes and who gets the space. Who gets cells that several buds ask for in
 // one step is settled by claims: the smallest key wins, whoever asks first (the published rule
 // visits buds in random order). Losers try again beside the winners.
+//
+// A claim is the axis' number in a free cell, marked as asked for. Owners lie scattered in memory,
+// so they are written once: what is won is only marked as taken, and read again only where several
+// have met.
 #include "growth/propose.h"
 
 #include <cglm/struct.h>
@@ -8,10 +12,6 @@
 
 static vec3s bud_at(const FrGrownPlant *plant, const FrLiveBud *bud) {
     return bud->node == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[bud->node];
-}
-
-static FrCell *cells_of(const FrGrowth *growth, uint32_t proposal) {
-    return growth->cells + (size_t)proposal * growth->cell_stride;
 }
 
 static bool is_in_arena(const FrGrowth *growth, const FrGrownPlant *plant, vec3s at) {
@@ -35,8 +35,8 @@ static bool is_in_envelope(const FrGrowth *growth, const FrGrownPlant *plant, co
 
 // ---- proposing --------------------------------------------------------------------------------
 
-/// Finds a free way, or says that there is none.
-static void propose(const FrGrowth *growth, uint32_t index, bool is_again) {
+/// Finds a free way and its cells, or says that there is none.
+static void propose(const FrGrowth *growth, uint32_t index, bool is_again, FrCell *cells) {
     FrProposal *proposal = &growth->proposals[index];
     const FrGrownPlant *plant = &growth->plants[proposal->plant];
     const FrReadySpecies *species = fr_species_of(growth, plant);
@@ -49,14 +49,15 @@ static void propose(const FrGrowth *growth, uint32_t index, bool is_again) {
         proposal->at = glms_vec3_add(from, glms_vec3_scale(proposal->direction, bud->length));
         if (is_in_arena(growth, plant, proposal->at) &&
             is_in_envelope(growth, plant, bud, from, proposal->at) &&
-            (!species->params.collide ||
-             fr_growth_is_free(growth, proposal, cells_of(growth, index)))) {
+            (!species->params.collide || fr_growth_is_free(growth, proposal, cells))) {
             proposal->state = species->params.collide ? FR_PROPOSAL_ASKS : FR_PROPOSAL_WON;
             return;
         }
     }
     proposal->state = FR_PROPOSAL_BLOCKED;
 }
+
+enum { AHEAD = 8 };
 
 typedef struct Round {
     FrGrowth *growth;
@@ -66,23 +67,47 @@ typedef struct Round {
 
 // ---- claiming ---------------------------------------------------------------------------------
 
-/// Notes the smallest rank in every cell that nobody owns yet; what is a relative's stays so.
-static void claim(FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
+static void set_bit(uint64_t *bits, uint64_t bit) {
+    if ((__atomic_load_n(bits, __ATOMIC_RELAXED) & bit) == 0) {
+        __atomic_fetch_or(bits, bit, __ATOMIC_RELAXED);
+    }
+}
+
+/// Asks for a free cell: the first of all that do stays in it. Returns whether another one does.
+static bool ask(const FrGrowth *growth, uint32_t *owner, uint32_t own) {
+    uint32_t old = FR_VOXEL_FREE;
+    while (
+        !__atomic_compare_exchange_n(owner, &old, own, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+        if (fr_claim_is_before(growth, old, own)) {
+            return true;
+        }
+    }
+    return old != FR_VOXEL_FREE;
+}
+
+/// Asks for every cell that nobody owns yet; what is a relative's stays so.
+static void claim(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
     for (uint32_t k = 1; k < proposal->cell_count; k++) {
         FrBrick *brick = fr_voxels_reserve(growth->voxels, cells[k]);
-        unsigned layer = (unsigned)cells[k].at[2] & 7;
-        uint64_t bit = UINT64_C(1) << fr_voxels_bit(cells[k]);
-        uint32_t *owner = fr_voxels_at(brick, cells[k]);
-        uint32_t mine = proposal->rank | FR_VOXEL_CLAIM;
-        uint32_t old = __atomic_load_n(owner, __ATOMIC_RELAXED);
-        if (old < FR_VOXEL_CLAIM) {
-            continue;
+        unsigned layer = (unsigned)cells[k].at[2] & 7, bit = fr_voxels_bit(cells[k]);
+        if ((brick->taken[layer] >> bit & 1) == 0) {
+            if (ask(growth, fr_voxels_at(brick, cells[k]), proposal->own)) {
+                set_bit(&brick->contested, UINT64_C(1) << fr_voxels_cube(layer, bit));
+            }
+            set_bit(&brick->asked[layer], UINT64_C(1) << bit);
         }
-        while (mine < old && !__atomic_compare_exchange_n(owner, &old, mine, true, __ATOMIC_RELAXED,
-                                                          __ATOMIC_RELAXED)) {
-        }
-        if ((__atomic_load_n(&brick->asked[layer], __ATOMIC_RELAXED) & bit) == 0) {
-            __atomic_fetch_or(&brick->asked[layer], bit, __ATOMIC_RELAXED);
+    }
+}
+
+/// Has the memory brought that a claim will write: it comes while others look for their ways.
+static void fetch(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
+    FrBrick *brick = NULL;
+    for (uint32_t k = 1; k < proposal->cell_count; k++) {
+        brick = fr_voxels_next_brick(growth->voxels, cells, k, brick);
+        uint32_t *owners = brick == NULL ? NULL : __atomic_load_n(&brick->owners, __ATOMIC_ACQUIRE);
+        if (owners != NULL) {
+            unsigned layer = (unsigned)cells[k].at[2] & 7;
+            __builtin_prefetch(&owners[fr_voxels_slot(layer, fr_voxels_bit(cells[k]))], 1);
         }
     }
 }
@@ -91,11 +116,21 @@ static void claim(FrGrowth *growth, const FrProposal *proposal, const FrCell *ce
 static void propose_range(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Round *round = data;
-    for (size_t i = begin; i < end; i++) {
-        FrProposal *proposal = &round->growth->proposals[round->open[i]];
-        propose(round->growth, round->open[i], round->is_again);
-        if (proposal->state == FR_PROPOSAL_ASKS) {
-            claim(round->growth, proposal, cells_of(round->growth, round->open[i]));
+    FrCell cells[AHEAD][FR_WALK_CELLS];
+    for (size_t i = begin; i < end + AHEAD; i++) {
+        if (i >= begin + AHEAD) {
+            FrProposal *proposal = &round->growth->proposals[round->open[i - AHEAD]];
+            if (proposal->state == FR_PROPOSAL_ASKS) {
+                claim(round->growth, proposal, cells[i % AHEAD]);
+                fr_path_keep(round->growth, proposal, cells[i % AHEAD]);
+            }
+        }
+        if (i < end) {
+            propose(round->growth, round->open[i], round->is_again, cells[i % AHEAD]);
+            FrProposal *proposal = &round->growth->proposals[round->open[i]];
+            if (proposal->state == FR_PROPOSAL_ASKS) {
+                fetch(round->growth, proposal, cells[i % AHEAD]);
+            }
         }
     }
 }
@@ -104,41 +139,55 @@ static void decide_range(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Round *round = data;
     const FrGrowth *growth = round->growth;
+    FrCell cells[FR_WALK_CELLS];
     for (size_t i = begin; i < end; i++) {
         FrProposal *proposal = &growth->proposals[round->open[i]];
         if (proposal->state == FR_PROPOSAL_ASKS) {
-            bool is_first = fr_growth_is_first(growth, proposal, cells_of(growth, round->open[i]));
+            fr_path_cells(growth, proposal, cells);
+            bool is_first = fr_growth_is_first(growth, proposal, cells);
             proposal->next = is_first ? FR_PROPOSAL_WON : FR_PROPOSAL_LOST;
         }
     }
 }
 
-/// A winner moves into the cells that it has claimed first; a loser leaves them as they were.
-static void settle(FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
+/// True for a cell in which a proposal is the first of all that ask for it.
+static bool has_first(const FrBrick *brick, FrCell cell, uint32_t own) {
+    unsigned layer = (unsigned)cell.at[2] & 7, bit = fr_voxels_bit(cell);
+    if ((__atomic_load_n(&brick->taken[layer], __ATOMIC_RELAXED) >> bit & 1) != 0) {
+        return false; // a relative's
+    }
+    return (brick->contested >> fr_voxels_cube(layer, bit) & 1) == 0 ||
+           __atomic_load_n(fr_voxels_at(brick, cell), __ATOMIC_RELAXED) == own;
+}
+
+/// A winner takes the cells in which it is the first; a loser leaves them as they were.
+static void settle(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
     FrBrick *brick = NULL;
     for (uint32_t k = 1; k < proposal->cell_count; k++) {
         brick = fr_voxels_next_brick(growth->voxels, cells, k, brick);
         unsigned layer = (unsigned)cells[k].at[2] & 7;
-        uint32_t *owner = fr_voxels_at(brick, cells[k]);
-        if (__atomic_load_n(owner, __ATOMIC_RELAXED) == (proposal->rank | FR_VOXEL_CLAIM)) {
-            bool has_won = proposal->next == FR_PROPOSAL_WON;
-            __atomic_store_n(owner, has_won ? proposal->own : FR_VOXEL_FREE, __ATOMIC_RELAXED);
-            if (has_won) {
-                __atomic_fetch_or(&brick->taken[layer], UINT64_C(1) << fr_voxels_bit(cells[k]),
-                                  __ATOMIC_RELAXED);
-            }
-        }
         __atomic_store_n(&brick->asked[layer], 0, __ATOMIC_RELAXED);
+        if (!has_first(brick, cells[k], proposal->own)) {
+            continue;
+        }
+        if (proposal->next == FR_PROPOSAL_WON) {
+            __atomic_fetch_or(&brick->taken[layer], UINT64_C(1) << fr_voxels_bit(cells[k]),
+                              __ATOMIC_RELAXED);
+        } else {
+            __atomic_store_n(fr_voxels_at(brick, cells[k]), FR_VOXEL_FREE, __ATOMIC_RELAXED);
+        }
     }
 }
 
 static void settle_range(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Round *round = data;
+    FrCell cells[FR_WALK_CELLS];
     for (size_t i = begin; i < end; i++) {
         FrProposal *proposal = &round->growth->proposals[round->open[i]];
         if (proposal->state == FR_PROPOSAL_ASKS) {
-            settle(round->growth, proposal, cells_of(round->growth, round->open[i]));
+            fr_path_cells(round->growth, proposal, cells);
+            settle(round->growth, proposal, cells);
             proposal->state = proposal->next;
         }
     }

@@ -18,20 +18,32 @@ struct FrProposal {
     uint32_t
         branched_off;    ///< of the axis that the first internode of its axis leaves, else FR_NONE
     uint32_t cell_count; ///< of its segment; the first is the one it begins in
-    uint32_t rank;       ///< its place among all proposals of the round, by key
     vec3s direction;     ///< unit
     vec3s at;            ///< new tip, relative to the seed
+    FrCell first;        ///< of its segment
+    uint8_t backwards;   ///< bit of every axis along which its cells go down
     uint8_t state, next;
 };
 
-/// Ranks the first `count` proposals by their keys.
-void fr_growth_rank(FrGrowth *growth, uint32_t count);
+/// True if one owner's proposal comes before another's. Equal keys hardly ever occur.
+static inline bool fr_claim_is_before(const FrGrowth *growth, uint32_t one, uint32_t other) {
+    uint64_t a = growth->owners[one].key, b = growth->owners[other].key;
+    return a != b ? a < b : one < other;
+}
 /// Settles proposals `open` (indices into growth->proposals, overwritten): each ends as WON, LOST
 /// or BLOCKED, and winners own their cells.
 void fr_growth_settle(FrGrowth *growth, uint32_t *open, uint32_t count, const FrContext *context);
 
+// ---- path.c -----------------------------------------------------------------------------------
+/// Bytes that the segment of a proposal takes, with at most so many cells.
+uint32_t fr_path_stride(uint32_t cells);
+/// Keeps the cells of a proposal's segment, `cell_count` of them.
+void fr_path_keep(const FrGrowth *growth, FrProposal *proposal, const FrCell *cells);
+/// The kept cells.
+void fr_path_cells(const FrGrowth *growth, const FrProposal *proposal, FrCell *cells);
+
 // ---- collide.c --------------------------------------------------------------------------------
-/// True if nothing that stands is in a proposal's way; then its cells are noted.
+/// True if nothing that stands is in a proposal's way; then these are its cells.
 bool fr_growth_is_free(const FrGrowth *growth, FrProposal *proposal, FrCell *cells);
-/// True if no claim to its cells comes before its own.
+/// True if nobody who asks for its cells comes before it.
 bool fr_growth_is_first(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells);

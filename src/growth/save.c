@@ -210,7 +210,7 @@ static bool take_plant(FrBytesReader *reader, const FrGrowth *growth, FrGrownPla
 static bool take_owners(FrGrowth *growth) {
     fr_growth_reserve_owners(growth, growth->owner_count);
     for (uint32_t i = 0; i < growth->owner_count; i++) {
-        growth->owners[i] = (FrOwner){FR_NONE, FR_NONE, FR_NONE};
+        growth->owners[i] = (FrOwner){.plant = FR_NONE};
     }
     for (uint32_t p = 0; p < growth->plant_count; p++) {
         const FrGrownPlant *plant = &growth->plants[p];
@@ -220,7 +220,7 @@ static bool take_owners(FrGrowth *growth) {
                 if (growth->owners[owner].plant != FR_NONE) {
                     return false;
                 }
-                growth->owners[owner] = (FrOwner){p, a, plant->axes[a].bearer};
+                growth->owners[owner] = (FrOwner){p, a, plant->axes[a].bearer, FR_NONE, 0};
             }
         }
     }

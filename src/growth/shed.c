@@ -157,7 +157,7 @@ static void compact_axes(FrGrowth *growth, FrGrownPlant *plant, const uint32_t *
         FrGrownAxis axis = plant->axes[a];
         if (axis_of[a] == FR_NONE) {
             if (axis.owner != FR_NONE) {
-                growth->owners[axis.owner] = (FrOwner){FR_NONE, FR_NONE, FR_NONE};
+                growth->owners[axis.owner] = (FrOwner){FR_NONE, FR_NONE, FR_NONE, FR_NONE, 0};
             }
             continue;
         }

@@ -7,6 +7,7 @@
 // by chance in proportion to its area, so that coverage is right in the mean. Every buffer keeps
 // the nearest depth alone, so the order of drawing has no say.
 #include "growth/sky.h"
+#include "math/lanes.h"
 
 #include <cglm/struct.h>
 #include <math.h>
@@ -65,19 +66,25 @@ typedef struct Looking {
     const FrShades *shades;
     const FrLiveBudAt *buds;
     uint32_t bud_count;
+    float *x, *y, *z; ///< of buds
+    float *own_shade; ///< of buds
     vec3s low, high;  ///< box around buds and leaves
     float lowest;     ///< height of the lowest bud
     float pixel;      ///< m
     int width;        ///< pixels
-    float **depth;    ///< by worker
+    float *depth;     ///< pictures, by worker
     uint8_t *is_seen; ///< by view, then by bud
 } Looking;
+
+static size_t pixels_of(const Looking *looking) {
+    return (size_t)looking->width * (size_t)looking->width;
+}
 
 static View view_of(const Looking *looking, uint32_t index, int worker) {
     View view = {.towards = looking->sky->direction[index],
                  .scale = 1 / looking->pixel,
                  .width = looking->width,
-                 .depth = looking->depth[worker],
+                 .depth = looking->depth + pixels_of(looking) * (size_t)worker,
                  .index = index};
     versors frame = fr_frame_from_heading(view.towards, (vec3s){{0.36f, 0.48f, 0.8f}});
     view.right = fr_frame_left(frame);
@@ -87,14 +94,6 @@ static View view_of(const Looking *looking, uint32_t index, int worker) {
     view.left = glms_vec3_dot(middle, view.right) - half;
     view.bottom = glms_vec3_dot(middle, view.up) - half;
     return view;
-}
-
-/// Squares of less than a pixel count by chance.
-static bool is_drawn(uint32_t hash, uint32_t index, float share) {
-    uint32_t bits = (hash ^ (index * 0x9e3779b9u)) * 0x85ebca6bu;
-    bits ^= bits >> 15;
-    bits *= 0x2c1b3c6du;
-    return (float)(bits >> 8) * 0x1p-24f < share;
 }
 
 // Without the care of fmaxf() for what is no number, of which there is none here.
@@ -119,20 +118,56 @@ static void draw_square(const View *view, float x, float y, float depth, float h
     }
 }
 
+enum { ABREAST = 64 }; ///< points that a view turns to at once
+
+/// Where points lie in a picture, and how near they are to the sky.
+typedef struct Places {
+    float x[ABREAST], y[ABREAST], depth[ABREAST];
+} Places;
+
+/// In a form that compilers turn into vectors.
+FR_LANES_CLONES static void place(const View *view, const float *restrict x,
+                                  const float *restrict y, const float *restrict z, uint32_t count,
+                                  Places *restrict places) {
+    vec3s right = view->right, up = view->up, towards = view->towards;
+    float left = view->left, bottom = view->bottom, scale = view->scale;
+    for (uint32_t i = 0; i < count; i++) {
+        places->x[i] = (x[i] * right.x + y[i] * right.y + z[i] * right.z - left) * scale;
+        places->y[i] = (x[i] * up.x + y[i] * up.y + z[i] * up.z - bottom) * scale;
+        places->depth[i] = x[i] * towards.x + y[i] * towards.y + z[i] * towards.z;
+    }
+}
+
+/// Which squares are drawn: those of less than a pixel by chance.
+FR_LANES_CLONES static void choose(const View *view, const float *restrict side,
+                                   const uint32_t *restrict hash, uint32_t count,
+                                   uint8_t *restrict is_drawn) {
+    uint32_t own = view->index * 0x9e3779b9u;
+    float scale = view->scale;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t bits = (hash[i] ^ own) * 0x85ebca6bu;
+        bits ^= bits >> 15;
+        bits *= 0x2c1b3c6du;
+        float width = side[i] * scale;
+        is_drawn[i] = (float)(int32_t)(bits >> 8) * 0x1p-24f < width * width;
+    }
+}
+
 static void draw_shades(const View *view, const FrShades *shades) {
-    for (uint32_t i = 0; i < shades->count; i++) {
-        vec3s at = {{shades->x[i], shades->y[i], shades->z[i]}};
-        float x = (glms_vec3_dot(at, view->right) - view->left) * view->scale;
-        float y = (glms_vec3_dot(at, view->up) - view->bottom) * view->scale;
-        float depth = glms_vec3_dot(at, view->towards);
-        float side = shades->side[i] * view->scale;
-        if (side > 1) {
-            draw_square(view, x, y, depth, side / 2);
-        } else if (is_drawn(shades->hash[i], view->index, side * side)) {
+    Places places;
+    uint8_t is_drawn[ABREAST];
+    for (uint32_t i = 0; i < shades->count; i += ABREAST) {
+        uint32_t count = MIN(ABREAST, shades->count - i);
+        place(view, shades->x + i, shades->y + i, shades->z + i, count, &places);
+        choose(view, shades->side + i, shades->hash + i, count, is_drawn);
+        for (uint32_t k = 0; k < count; k++) {
+            float side = shades->side[i + k] * view->scale, x = places.x[k], y = places.y[k];
             bool is_inside = x >= 0 && y >= 0 && x < (float)view->width && y < (float)view->width;
-            if (is_inside) {
+            if (side > 1) {
+                draw_square(view, x, y, places.depth[k], side / 2);
+            } else if (is_drawn[k] && is_inside) {
                 float *pixel = view->depth + (size_t)y * (size_t)view->width + (size_t)x;
-                *pixel = larger(*pixel, depth);
+                *pixel = larger(*pixel, places.depth[k]);
             }
         }
     }
@@ -220,24 +255,39 @@ static void draw_obstacles(const View *view, const FrGrowth *growth, float lowes
 
 // ---- looking ----------------------------------------------------------------------------------
 
+/// The pixels of points, and what is as near to the sky as they.
+FR_LANES_CLONES static void find_pixels(const View *view, float pixel,
+                                        const float *restrict own_shade, uint32_t count,
+                                        const Places *restrict places, int32_t *restrict at,
+                                        float *restrict depth) {
+    float last = (float)(view->width - 1);
+    int width = view->width;
+    for (uint32_t i = 0; i < count; i++) {
+        int column = (int)CLAMP(places->x[i], 0, last), row = (int)CLAMP(places->y[i], 0, last);
+        at[i] = row * width + column;
+        // Its own leaves do not shade a bud, nor does the slope of the pixel.
+        depth[i] = places->depth[i] + larger(pixel, own_shade[i]);
+    }
+}
+
 static void look_at_buds(const Looking *looking, const View *view) {
     uint8_t *is_seen = looking->is_seen + (size_t)view->index * looking->bud_count;
-    for (uint32_t i = 0; i < looking->bud_count; i++) {
-        vec3s at = looking->buds[i].world;
-        float x = (glms_vec3_dot(at, view->right) - view->left) * view->scale;
-        float y = (glms_vec3_dot(at, view->up) - view->bottom) * view->scale;
-        int column = (int)CLAMP(x, 0, (float)(view->width - 1));
-        int row = (int)CLAMP(y, 0, (float)(view->width - 1));
-        // Its own leaves do not shade a bud, nor does the slope of the pixel.
-        float bias = larger(looking->pixel, looking->buds[i].own_shade);
-        float depth = view->depth[(size_t)row * (size_t)view->width + (size_t)column];
-        is_seen[i] = depth <= glms_vec3_dot(at, view->towards) + bias;
+    Places places;
+    int32_t at[ABREAST];
+    float depth[ABREAST];
+    for (uint32_t i = 0; i < looking->bud_count; i += ABREAST) {
+        uint32_t count = MIN(ABREAST, looking->bud_count - i);
+        place(view, looking->x + i, looking->y + i, looking->z + i, count, &places);
+        find_pixels(view, looking->pixel, looking->own_shade + i, count, &places, at, depth);
+        for (uint32_t k = 0; k < count; k++) {
+            is_seen[i + k] = view->depth[at[k]] <= depth[k];
+        }
     }
 }
 
 static void look(void *data, size_t begin, size_t end, int worker) {
     const Looking *looking = data;
-    size_t pixels = (size_t)looking->width * (size_t)looking->width;
+    size_t pixels = pixels_of(looking);
     for (size_t index = begin; index < end; index++) {
         View view = view_of(looking, (uint32_t)index, worker);
         for (size_t i = 0; i < pixels; i++) {
@@ -249,24 +299,53 @@ static void look(void *data, size_t begin, size_t end, int worker) {
     }
 }
 
+/// Brightness that comes to buds, as light and as a vector.
+typedef struct Brightness {
+    float light[ABREAST], x[ABREAST], y[ABREAST], z[ABREAST];
+} Brightness;
+
+FR_LANES_CLONES static void add_view(Brightness *restrict sum, const uint8_t *restrict is_seen,
+                                     float weight, vec3s part, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        float seen = (float)is_seen[i];
+        sum->light[i] += seen * weight;
+        sum->x[i] += seen * part.x;
+        sum->y[i] += seen * part.y;
+        sum->z[i] += seen * part.z;
+    }
+}
+
 static void sum_up(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Looking *looking = data;
-    for (size_t i = begin; i < end; i++) {
-        float light = 0;
-        vec3s sum = {{0, 0, 0}};
-        for (uint32_t view = 0; view < looking->sky->count; view++) {
-            if (looking->is_seen[(size_t)view * looking->bud_count + i]) {
-                float weight = looking->sky->weight[view];
-                light += weight;
-                sum = glms_vec3_add(sum, glms_vec3_scale(looking->sky->direction[view], weight));
-            }
+    const FrSky *sky = looking->sky;
+    for (size_t i = begin; i < end; i += ABREAST) {
+        uint32_t count = (uint32_t)MIN(ABREAST, end - i);
+        Brightness all = {0};
+        for (uint32_t view = 0; view < sky->count; view++) {
+            vec3s part = glms_vec3_scale(sky->direction[view], sky->weight[view]);
+            add_view(&all, looking->is_seen + (size_t)view * looking->bud_count + i,
+                     sky->weight[view], part, count);
         }
-        FrLiveBud *bud = looking->buds[i].bud;
-        float length = glms_vec3_norm(sum);
-        bud->light = smaller(light, 1);
-        bud->slope = 1;
-        bud->brightest = length > 1e-6f ? glms_vec3_scale(sum, 1 / length) : (vec3s){0};
+        for (uint32_t k = 0; k < count; k++) {
+            FrLiveBud *bud = looking->buds[i + k].bud;
+            vec3s sum = {{all.x[k], all.y[k], all.z[k]}};
+            float length = glms_vec3_norm(sum);
+            bud->light = smaller(all.light[k], 1);
+            bud->slope = 1;
+            bud->brightest = length > 1e-6f ? glms_vec3_scale(sum, 1 / length) : (vec3s){0};
+        }
+    }
+}
+
+static void spread(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Looking *looking = data;
+    for (size_t i = begin; i < end; i++) {
+        looking->x[i] = looking->buds[i].world.x;
+        looking->y[i] = looking->buds[i].world.y;
+        looking->z[i] = looking->buds[i].world.z;
+        looking->own_shade[i] = looking->buds[i].own_shade;
     }
 }
 
@@ -295,7 +374,7 @@ static void lay_pictures(Looking *looking) {
     looking->width = (int)ceilf(size / looking->pixel) + 1;
 }
 
-void fr_sky_look(const FrGrowth *growth, const FrSky *sky, const FrShades *shades,
+void fr_sky_look(FrGrowth *growth, const FrSky *sky, const FrShades *shades,
                  const FrLiveBudAt *buds, uint32_t count, const FrContext *context) {
     enum { GRAIN = 1024 };
     if (count == 0) {
@@ -304,18 +383,16 @@ void fr_sky_look(const FrGrowth *growth, const FrSky *sky, const FrShades *shade
     Looking looking = {
         .growth = growth, .sky = sky, .shades = shades, .buds = buds, .bud_count = count};
     lay_pictures(&looking);
-    int threads = fr_pool_threads(context->pool);
-    size_t pixels = (size_t)looking.width * (size_t)looking.width;
-    looking.depth = g_new(float *, threads);
-    for (int i = 0; i < threads; i++) {
-        looking.depth[i] = g_new(float, pixels);
-    }
-    looking.is_seen = g_new(uint8_t, (size_t)sky->count * count);
+    size_t pixels = pixels_of(&looking) * (size_t)fr_pool_threads(context->pool);
+    size_t columns = pixels + (size_t)count * 4;
+    looking.depth =
+        fr_scratch_take(&growth->sky_memory, columns * sizeof(float) + (size_t)sky->count * count);
+    looking.x = looking.depth + pixels;
+    looking.y = looking.x + count;
+    looking.z = looking.y + count;
+    looking.own_shade = looking.z + count;
+    looking.is_seen = (uint8_t *)(looking.depth + columns);
+    fr_parallel_for(context->pool, count, GRAIN, spread, &looking, NULL);
     fr_parallel_for(context->pool, sky->count, 1, look, &looking, context->progress);
     fr_parallel_for(context->pool, count, GRAIN, sum_up, &looking, context->progress);
-    for (int i = 0; i < threads; i++) {
-        g_free(looking.depth[i]);
-    }
-    g_free(looking.depth);
-    g_free(looking.is_seen);
 }

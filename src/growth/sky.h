@@ -18,10 +18,10 @@ typedef struct FrShades {
     float *x, *y, *z;
     float *side;    ///< m
     uint32_t *hash; ///< of its own, for chance
-    uint32_t count, capacity;
+    uint32_t count;
 } FrShades;
 
 FrSky fr_sky_of(const FrGrowth *growth);
 /// Light and brightest direction of buds.
-void fr_sky_look(const FrGrowth *growth, const FrSky *sky, const FrShades *shades,
+void fr_sky_look(FrGrowth *growth, const FrSky *sky, const FrShades *shades,
                  const FrLiveBudAt *buds, uint32_t count, const FrContext *context);

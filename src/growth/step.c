@@ -96,7 +96,6 @@ static void make_shoots(FrGrowth *growth, const FrContext *context) {
         if (count == 0) {
             return;
         }
-        fr_growth_rank(growth, count);
         fr_growth_settle(growth, growth->open, count, context);
         fr_parallel_for(context->pool, growth->plant_count, 1, commit_plants, growth, NULL);
     }
