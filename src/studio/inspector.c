@@ -2,16 +2,19 @@
 
 #include "studio/accessible.h"
 #include "studio/model/commands.h"
+#include "studio/model/keys.h"
 #include "studio/model/place.h"
 #include "studio/param_row.h"
 
 #include <adwaita.h>
+#include <math.h>
 #include <string.h>
 
 struct _StudioInspector {
     GtkBox parent;
     StudioDocument *document; // borrowed
     char *place;              // of the element; NULL: none
+    double time;              // of the clock; NAN: as the document says
     const FrParamTable *table;
     GPtrArray *rows; // StudioParamRow *, borrowed from the sections
     GtkWidget *stack, *id, *kind, *meaning, *search, *given, *sections, *scrolled;
@@ -34,6 +37,34 @@ static void on_set(StudioParamRow *row, const char *value, gboolean is_drag,
     uint32_t element = element_of(inspector);
     if (element != FR_NONE) {
         studio_set(inspector->document, element, studio_param_row_attribute(row), value, is_drag);
+    }
+}
+
+// The age of the element at the time that is shown; NAN: it has no key frames.
+static double age_of(StudioInspector *inspector, uint32_t element) {
+    if (!studio_has_keys(inspector->document, element)) {
+        return NAN;
+    }
+    StudioClock clock = studio_clock_of(inspector->document, element);
+    double time =
+        isnan(inspector->time) ? studio_clock_shown(inspector->document, element) : inspector->time;
+    return clock.scale * time + clock.offset;
+}
+
+static void on_key(StudioParamRow *row, double value, gboolean is_drag,
+                   StudioInspector *inspector) {
+    uint32_t element = element_of(inspector);
+    if (element != FR_NONE) {
+        studio_set_key(inspector->document, element, studio_param_row_attribute(row),
+                       age_of(inspector, element), value, is_drag);
+    }
+}
+
+static void on_unkey(StudioParamRow *row, StudioInspector *inspector) {
+    uint32_t element = element_of(inspector);
+    if (element != FR_NONE) {
+        studio_remove_key(inspector->document, element, studio_param_row_attribute(row),
+                          age_of(inspector, element));
     }
 }
 
@@ -108,6 +139,8 @@ static void add_row(StudioInspector *inspector, GtkWidget *section, const FrPara
     g_signal_connect(row, "set", G_CALLBACK(on_set), inspector);
     g_signal_connect(row, "sealed", G_CALLBACK(on_sealed), inspector);
     g_signal_connect(row, "follow", G_CALLBACK(on_follow), inspector);
+    g_signal_connect(row, "key", G_CALLBACK(on_key), inspector);
+    g_signal_connect(row, "unkey", G_CALLBACK(on_unkey), inspector);
     gtk_box_append(GTK_BOX(section), row);
     g_ptr_array_add(inspector->rows, row);
 }
@@ -165,9 +198,11 @@ static void show_values(StudioInspector *inspector, uint32_t element) {
     const FrContents *contents = studio_document_contents(inspector->document);
     static const char *const kinds[] = {"smooth", "linear", "step"};
     char *kind = fr_contents_get(contents, element, "kind");
+    double age = age_of(inspector, element);
     for (guint i = 0; i < inspector->rows->len; i++) {
         StudioParamRow *row = g_ptr_array_index(inspector->rows, i);
         char *value = fr_contents_get(contents, element, studio_param_row_attribute(row));
+        studio_param_row_set_age(row, age);
         studio_param_row_show(row, value);
         for (int k = 0; k < 3; k++) {
             if (g_strcmp0(kind, kinds[k]) == 0) {
@@ -226,6 +261,14 @@ void studio_inspector_show(StudioInspector *inspector, StudioDocument *document,
     studio_inspector_set_diags(inspector, diags);
     filter_rows(inspector);
     gtk_stack_set_visible_child_name(GTK_STACK(inspector->stack), "element");
+}
+
+void studio_inspector_set_time(StudioInspector *inspector, double time) {
+    inspector->time = time;
+    uint32_t element = element_of(inspector);
+    if (element != FR_NONE) {
+        show_values(inspector, element);
+    }
 }
 
 // ---- what is wrong -----------------------------------------------------------------------------
@@ -329,6 +372,7 @@ static void studio_inspector_class_init(StudioInspectorClass *class) {
 
 static void studio_inspector_init(StudioInspector *inspector) {
     inspector->rows = g_ptr_array_new();
+    inspector->time = NAN;
     inspector->stack = gtk_stack_new();
     gtk_widget_set_hexpand(inspector->stack, TRUE);
     inspector->sections = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);

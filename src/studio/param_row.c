@@ -2,18 +2,22 @@
 
 #include "studio/accessible.h"
 #include "studio/curve_box.h"
+#include "studio/model/keys.h"
 #include "studio/model/values.h"
 
+#include <math.h>
 #include <string.h>
 
-enum { SIGNAL_SET, SIGNAL_SEALED, SIGNAL_FOLLOW, SIGNAL_COUNT };
+enum { SIGNAL_SET, SIGNAL_SEALED, SIGNAL_FOLLOW, SIGNAL_KEY, SIGNAL_UNKEY, SIGNAL_COUNT };
 
 struct _StudioParamRow {
     GtkBox parent;
     const FrParam *param;
     char *attribute, *value; // `value` NULL: not given
     gboolean is_showing;     // signals of widgets are our own doing
-    GtkWidget *name, *entry, *scale, *toggle, *choice, *colour, *reset, *curve, *offer, *note;
+    GtkWidget *name, *entry, *scale, *toggle, *choice, *colour, *reset, *curve, *offer, *note, *key;
+    double age; // of key frames; NAN: none
+    gboolean has_keys, is_at_key;
     int curve_kind; // FrCurveKind
 };
 
@@ -32,7 +36,13 @@ static void set(StudioParamRow *row, const char *value, gboolean is_drag) {
 static void commit_entry(StudioParamRow *row) {
     const char *text = gtk_editable_get_text(GTK_EDITABLE(row->entry));
     const char *shown = row->value != NULL ? row->value : row->param->default_text;
-    if (!row->is_showing && strcmp(text, shown) != 0) {
+    double value;
+    if (row->is_showing || strcmp(text, shown) == 0) {
+        return;
+    }
+    if (row->has_keys && studio_value_is_number(text, &value)) {
+        g_signal_emit(row, signals[SIGNAL_KEY], 0, value, FALSE);
+    } else {
         set(row, *text == '\0' ? NULL : text, FALSE);
     }
 }
@@ -54,7 +64,11 @@ static gboolean on_slide(GtkRange *range, GtkScrollType scroll, double value, St
     char *text = row->param->kind == FR_PARAM_INTEGER
                      ? g_strdup_printf("%.0f", CLAMP(value, min, max))
                      : studio_value_text(CLAMP(value, min, max), max - min);
-    set(row, text, TRUE);
+    if (row->has_keys) {
+        g_signal_emit(row, signals[SIGNAL_KEY], 0, g_ascii_strtod(text, NULL), TRUE);
+    } else {
+        set(row, text, TRUE);
+    }
     g_free(text);
     return FALSE;
 }
@@ -95,6 +109,15 @@ static void on_colour(GtkColorButton *button, StudioParamRow *row) {
 static void on_reset(GtkButton *button, StudioParamRow *row) {
     (void)button;
     set(row, NULL, FALSE);
+}
+
+static void on_key(GtkButton *button, StudioParamRow *row) {
+    (void)button;
+    if (row->is_at_key) {
+        g_signal_emit(row, signals[SIGNAL_UNKEY], 0);
+    } else {
+        g_signal_emit(row, signals[SIGNAL_KEY], 0, NAN, FALSE);
+    }
 }
 
 static void on_dice(GtkButton *button, StudioParamRow *row) {
@@ -217,6 +240,18 @@ static GtkWidget *make_line(StudioParamRow *row, const char *title) {
     row->reset = flat_button("edit-undo-symbolic", "Back to the default");
     g_signal_connect(row->reset, "clicked", G_CALLBACK(on_reset), row);
     gtk_box_append(GTK_BOX(line), row->reset);
+    // When it lives says what its age is: that cannot go by its age.
+    bool is_of_life =
+        strcmp(row->param->name, "birth") == 0 || strcmp(row->param->name, "time_scale") == 0;
+    if (row->param->kind == FR_PARAM_NUMBER && !is_of_life) {
+        row->key = flat_button("studio-key-symbolic", "Set a key frame at this time");
+        gtk_widget_add_css_class(row->key, "key-button");
+        char *name = g_strconcat(row->attribute, "-key", NULL);
+        gtk_widget_set_name(row->key, name);
+        g_free(name);
+        g_signal_connect(row->key, "clicked", G_CALLBACK(on_key), row);
+        gtk_box_append(GTK_BOX(line), row->key);
+    }
     if (names_something(row->param)) {
         row->offer = flat_button("go-jump-symbolic", "Show what it names");
         g_signal_connect(row->offer, "clicked", G_CALLBACK(on_follow), row);
@@ -281,9 +316,38 @@ static void fill(StudioParamRow *row) {
 
 // ---- showing -----------------------------------------------------------------------------------
 
-static void show_scale(StudioParamRow *row, const char *text) {
-    double value;
-    bool is_number = studio_value_is_number(text, &value);
+// What can be done about key frames now; `*value` receives what they say at the age.
+static void show_key(StudioParamRow *row, const char *text, double *value) {
+    StudioKeys keys;
+    double plain;
+    bool may = row->key != NULL && !isnan(row->age) && studio_keys_read(text, &keys, &plain);
+    row->has_keys = may && keys.points->len > 0;
+    row->is_at_key = may && studio_keys_find(&keys, row->age) != FR_NONE;
+    *value = row->has_keys ? studio_keys_value(&keys, row->age) : NAN;
+    if (may) {
+        studio_keys_clear(&keys);
+    }
+    if (row->key == NULL) {
+        return;
+    }
+    const char *tip =
+        row->is_at_key ? "Remove the key frame at this time" : "Set a key frame at this time";
+    gtk_widget_set_visible(row->key, may);
+    gtk_button_set_icon_name(GTK_BUTTON(row->key),
+                             row->is_at_key ? "studio-key-set-symbolic" : "studio-key-symbolic");
+    gtk_widget_set_tooltip_text(row->key, tip);
+    gtk_accessible_update_property(GTK_ACCESSIBLE(row->key), GTK_ACCESSIBLE_PROPERTY_LABEL, tip,
+                                   -1);
+    if (row->has_keys) {
+        gtk_widget_add_css_class(row->key, "keyed");
+    } else {
+        gtk_widget_remove_css_class(row->key, "keyed");
+    }
+}
+
+static void show_scale(StudioParamRow *row, const char *text, double keyed) {
+    double value = keyed;
+    bool is_number = !isnan(keyed) || studio_value_is_number(text, &value);
     gtk_widget_set_visible(row->scale, is_number);
     if (!is_number) {
         return;
@@ -325,8 +389,10 @@ void studio_param_row_show(StudioParamRow *row, const char *value) {
     if (row->entry != NULL && strcmp(gtk_editable_get_text(GTK_EDITABLE(row->entry)), text) != 0) {
         gtk_editable_set_text(GTK_EDITABLE(row->entry), text);
     }
+    double keyed;
+    show_key(row, text, &keyed);
     if (row->scale != NULL) {
-        show_scale(row, text);
+        show_scale(row, text, keyed);
     }
     if (row->toggle != NULL) {
         gtk_switch_set_active(GTK_SWITCH(row->toggle), strcmp(text, "yes") == 0);
@@ -348,6 +414,10 @@ void studio_param_row_show(StudioParamRow *row, const char *value) {
         gtk_widget_set_visible(row->offer, own != NULL && *own != '\0' && strchr(own, ',') == NULL);
     }
     row->is_showing = FALSE;
+}
+
+void studio_param_row_set_age(StudioParamRow *row, double age) {
+    row->age = age;
 }
 
 void studio_param_row_set_curve_kind(StudioParamRow *row, int kind) {
@@ -410,6 +480,10 @@ static void studio_param_row_class_init(StudioParamRowClass *class) {
         g_signal_new("sealed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
     signals[SIGNAL_FOLLOW] = g_signal_new("follow", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
                                           G_TYPE_NONE, 1, G_TYPE_STRING);
+    signals[SIGNAL_KEY] = g_signal_new("key", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+                                       G_TYPE_NONE, 2, G_TYPE_DOUBLE, G_TYPE_BOOLEAN);
+    signals[SIGNAL_UNKEY] =
+        g_signal_new("unkey", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 }
 
 static void studio_param_row_init(StudioParamRow *row) {
@@ -420,6 +494,7 @@ static void studio_param_row_init(StudioParamRow *row) {
 GtkWidget *studio_param_row_new(const FrParam *param) {
     StudioParamRow *row = g_object_new(STUDIO_TYPE_PARAM_ROW, NULL);
     row->param = param;
+    row->age = NAN;
     row->attribute = fr_param_attribute(param);
     fill(row);
     studio_param_row_show(row, NULL);

@@ -13,6 +13,8 @@ G_DECLARE_FINAL_TYPE(StudioParamRow, studio_param_row, STUDIO, PARAM_ROW, GtkBox
 ///   "set" (const char *value, gboolean is_drag)   NULL: back to the default
 ///   "sealed" ()                                   a drag is over
 ///   "follow" (const char *id)                     what the value names shall be shown
+///   "key" (double value, gboolean is_drag)        a key frame is set at the age; NAN: of what is
+///   "unkey" ()                                    the key frame at the age is removed
 
 GtkWidget *studio_param_row_new(const FrParam *param);
 const FrParam *studio_param_row_param(StudioParamRow *row);
@@ -20,6 +22,8 @@ const FrParam *studio_param_row_param(StudioParamRow *row);
 const char *studio_param_row_attribute(StudioParamRow *row);
 /// Shows a value; NULL: it is not given.
 void studio_param_row_show(StudioParamRow *row, const char *value);
+/// The age that key frames are set at, in years; NAN: there are none.
+void studio_param_row_set_age(StudioParamRow *row, double age);
 /// How the points of a curve are joined (FrCurveKind).
 void studio_param_row_set_curve_kind(StudioParamRow *row, int kind);
 /// Underlines bytes [begin, end) of the value, with what is wrong; NULL: nothing.

@@ -1,7 +1,9 @@
 #include "studio/time_strip.h"
 
 #include "studio/accessible.h"
+#include "studio/key_track.h"
 #include "studio/model/commands.h"
+#include "studio/model/keys.h"
 #include "studio/model/place.h"
 #include "studio/model/values.h"
 
@@ -15,15 +17,120 @@ struct _StudioTimeStrip {
     gboolean is_showing, is_running, is_moved;
     gboolean is_growing;
     uint64_t step, step_count;
+    char *keyed;       // place of what the key frames are of; NULL: nothing
+    StudioClock clock; // of it
+    double said;       // what the document says that the clock shows
+    guint drags;       // of keys: each is a step of its own
     GtkWidget *stack, *play, *scale, *span, *years, *back, *steps;
+    GtkWidget *track, *before, *after;
     GtkWidget *grow, *begin, *undo, *grown;
 };
 
 enum { FRAMES = 120 }; // from the beginning of the scale to its end
 
+static const double inset = 10; // half of the clock's handle
+
 static guint time_signal, step_signal;
 
 G_DEFINE_TYPE(StudioTimeStrip, studio_time_strip, GTK_TYPE_BOX)
+
+// ---- key frames --------------------------------------------------------------------------------
+
+static double shown_time(StudioTimeStrip *strip) {
+    return strip->is_moved ? gtk_range_get_value(GTK_RANGE(strip->scale)) : strip->said;
+}
+
+static uint32_t keyed_element(StudioTimeStrip *strip) {
+    return studio_place_find(studio_document_contents(strip->document), strip->keyed);
+}
+
+static void show_keys(StudioTimeStrip *strip) {
+    uint32_t element = strip->keyed == NULL ? FR_NONE : keyed_element(strip);
+    GArray *times = element == FR_NONE ? g_array_new(FALSE, FALSE, sizeof(double))
+                                       : studio_key_ages(strip->document, element);
+    if (element != FR_NONE) {
+        strip->clock = studio_clock_of(strip->document, element);
+        strip->said = studio_clock_shown(strip->document, element);
+    }
+    for (guint i = 0; i < times->len; i++) {
+        double *time = &g_array_index(times, double, i);
+        *time = (*time - strip->clock.offset) / strip->clock.scale;
+    }
+    StudioKeyTrack *track = STUDIO_KEY_TRACK(strip->track);
+    double now = shown_time(strip), span = gtk_spin_button_get_value(GTK_SPIN_BUTTON(strip->span));
+    studio_key_track_show(track, times, now, span, inset);
+    bool has_keys = times->len > 0;
+    gtk_widget_set_visible(strip->track, has_keys);
+    gtk_widget_set_visible(strip->before, has_keys);
+    gtk_widget_set_visible(strip->after, has_keys);
+    gtk_widget_set_sensitive(strip->before, !isnan(studio_key_track_next(track, now, -1)));
+    gtk_widget_set_sensitive(strip->after, !isnan(studio_key_track_next(track, now, 1)));
+    g_array_unref(times);
+}
+
+static void go_to_time(StudioTimeStrip *strip, double time) {
+    GtkSpinButton *span = GTK_SPIN_BUTTON(strip->span);
+    if (time > gtk_spin_button_get_value(span)) {
+        gtk_spin_button_set_value(span, ceil(time));
+    }
+    bool is_there = gtk_range_get_value(GTK_RANGE(strip->scale)) == time;
+    gtk_range_set_value(GTK_RANGE(strip->scale), time);
+    if (is_there && !strip->is_moved) { // the clock shows what the document says, not this
+        g_signal_emit_by_name(strip->scale, "value-changed");
+    }
+}
+
+static void on_go(StudioKeyTrack *track, double time, StudioTimeStrip *strip) {
+    (void)track;
+    go_to_time(strip, time);
+}
+
+static void on_move(StudioKeyTrack *track, double from, double to, StudioTimeStrip *strip) {
+    uint32_t element = keyed_element(strip);
+    if (element == FR_NONE) {
+        return;
+    }
+    StudioClock clock = strip->clock;
+    double age = clock.scale * to + clock.offset;
+    char *key = g_strdup_printf("keys %u", strip->drags);
+    if (studio_move_keys(strip->document, element, clock.scale * from + clock.offset, &age, key)) {
+        studio_key_track_hold(track, (age - clock.offset) / clock.scale);
+    }
+    g_free(key);
+}
+
+static void on_dropped(StudioKeyTrack *track, StudioTimeStrip *strip) {
+    (void)track;
+    strip->drags++;
+    studio_document_seal(strip->document);
+}
+
+static void on_remove(StudioKeyTrack *track, double time, StudioTimeStrip *strip) {
+    (void)track;
+    uint32_t element = keyed_element(strip);
+    if (element != FR_NONE) {
+        studio_remove_keys(strip->document, element,
+                           strip->clock.scale * time + strip->clock.offset);
+    }
+}
+
+static void go_to_key(StudioTimeStrip *strip, int direction) {
+    double next =
+        studio_key_track_next(STUDIO_KEY_TRACK(strip->track), shown_time(strip), direction);
+    if (!isnan(next)) {
+        go_to_time(strip, next);
+    }
+}
+
+static void on_before(GtkButton *button, StudioTimeStrip *strip) {
+    (void)button;
+    go_to_key(strip, -1);
+}
+
+static void on_after(GtkButton *button, StudioTimeStrip *strip) {
+    (void)button;
+    go_to_key(strip, 1);
+}
 
 // ---- the clock ---------------------------------------------------------------------------------
 
@@ -33,6 +140,7 @@ static void show_years(StudioTimeStrip *strip) {
         strip->is_moved ? g_strdup_printf("%.2f years", years) : g_strdup("as the document says");
     gtk_label_set_text(GTK_LABEL(strip->years), text);
     gtk_widget_set_sensitive(strip->back, strip->is_moved);
+    show_keys(strip);
     g_free(text);
 }
 
@@ -50,14 +158,23 @@ static void stop(StudioTimeStrip *strip) {
     gtk_button_set_icon_name(GTK_BUTTON(strip->grow), "media-playback-start-symbolic");
 }
 
-static void on_back(GtkButton *button, StudioTimeStrip *strip) {
-    (void)button;
+static void show_said(StudioTimeStrip *strip) {
     stop(strip);
     strip->is_moved = FALSE;
     strip->is_showing = TRUE;
     gtk_range_set_value(GTK_RANGE(strip->scale), 0);
     strip->is_showing = FALSE;
     show_years(strip);
+}
+
+void studio_time_strip_reset(StudioTimeStrip *strip) {
+    g_clear_pointer(&strip->keyed, g_free);
+    show_said(strip);
+}
+
+static void on_back(GtkButton *button, StudioTimeStrip *strip) {
+    (void)button;
+    show_said(strip);
     g_signal_emit(strip, time_signal, 0, NAN);
 }
 
@@ -65,6 +182,7 @@ static void on_span(GtkSpinButton *spin, StudioTimeStrip *strip) {
     double span = gtk_spin_button_get_value(spin);
     gtk_range_set_range(GTK_RANGE(strip->scale), 0, span);
     gtk_range_set_increments(GTK_RANGE(strip->scale), span / 100, span / 10);
+    show_keys(strip);
 }
 
 static void go_to_step(StudioTimeStrip *strip, uint64_t step) {
@@ -217,9 +335,15 @@ static void show_steps(StudioTimeStrip *strip, uint32_t element) {
     g_free(steps);
 }
 
-void studio_time_strip_show(StudioTimeStrip *strip, StudioDocument *document, uint32_t plant) {
+void studio_time_strip_show(StudioTimeStrip *strip, StudioDocument *document, uint32_t plant,
+                            uint32_t selected) {
     const FrContents *contents = studio_document_contents(document);
     strip->document = document;
+    g_free(strip->keyed);
+    strip->keyed = plant != FR_NONE && studio_has_keys(document, selected)
+                       ? studio_place_of(contents, selected)
+                       : NULL;
+    show_keys(strip);
     uint32_t element = plant == FR_NONE ? FR_NONE : fr_contents_child(contents, plant, "lsystem");
     g_free(strip->lsystem);
     strip->lsystem = element == FR_NONE ? NULL : studio_place_of(contents, element);
@@ -237,6 +361,32 @@ void studio_time_strip_show(StudioTimeStrip *strip, StudioDocument *document, ui
 }
 
 // ---- life --------------------------------------------------------------------------------------
+
+static GtkWidget *key_button(StudioTimeStrip *strip, const char *icon, const char *tip,
+                             GCallback callback) {
+    GtkWidget *button = gtk_button_new_from_icon_name(icon);
+    gtk_widget_add_css_class(button, "flat");
+    gtk_widget_set_tooltip_text(button, tip);
+    gtk_widget_set_name(button, tip);
+    studio_name(button, tip);
+    gtk_widget_set_visible(button, FALSE);
+    g_signal_connect(button, "clicked", callback, strip);
+    return button;
+}
+
+static GtkWidget *make_track(StudioTimeStrip *strip) {
+    strip->before =
+        key_button(strip, "go-previous-symbolic", "The key before", G_CALLBACK(on_before));
+    strip->after = key_button(strip, "go-next-symbolic", "The next key", G_CALLBACK(on_after));
+    strip->track = studio_key_track_new();
+    gtk_widget_set_name(strip->track, "keys");
+    gtk_widget_set_visible(strip->track, FALSE);
+    g_signal_connect(strip->track, "go", G_CALLBACK(on_go), strip);
+    g_signal_connect(strip->track, "move", G_CALLBACK(on_move), strip);
+    g_signal_connect(strip->track, "dropped", G_CALLBACK(on_dropped), strip);
+    g_signal_connect(strip->track, "remove", G_CALLBACK(on_remove), strip);
+    return strip->track;
+}
 
 static GtkWidget *make_clock(StudioTimeStrip *strip) {
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
@@ -264,7 +414,12 @@ static GtkWidget *make_clock(StudioTimeStrip *strip) {
     gtk_widget_set_tooltip_text(strip->back, "Show the time that the document says");
     studio_name(strip->back, "Show the time that the document says");
     g_signal_connect(strip->back, "clicked", G_CALLBACK(on_back), strip);
-    GtkWidget *parts[] = {strip->play, strip->scale, strip->years, strip->back, strip->span};
+    GtkWidget *line = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+    gtk_widget_set_hexpand(line, TRUE);
+    gtk_box_append(GTK_BOX(line), make_track(strip));
+    gtk_box_append(GTK_BOX(line), strip->scale);
+    GtkWidget *parts[] = {strip->play,  strip->before, line,       strip->after,
+                          strip->years, strip->back,   strip->span};
     for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) {
         gtk_widget_set_valign(parts[i], GTK_ALIGN_CENTER);
         gtk_box_append(GTK_BOX(box), parts[i]);
@@ -293,6 +448,7 @@ static GtkWidget *make_steps(StudioTimeStrip *strip) {
 }
 
 static void studio_time_strip_finalize(GObject *object) {
+    g_free(STUDIO_TIME_STRIP(object)->keyed);
     g_free(STUDIO_TIME_STRIP(object)->lsystem);
     G_OBJECT_CLASS(studio_time_strip_parent_class)->finalize(object);
 }
@@ -306,6 +462,7 @@ static void studio_time_strip_class_init(StudioTimeStripClass *class) {
 }
 
 static void studio_time_strip_init(StudioTimeStrip *strip) {
+    strip->clock.scale = 1;
     strip->stack = gtk_stack_new();
     gtk_widget_set_hexpand(strip->stack, TRUE);
     gtk_stack_add_named(GTK_STACK(strip->stack), make_clock(strip), "clock");

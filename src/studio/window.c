@@ -51,7 +51,7 @@ static void follow_plant(StudioWindow *window) {
 
 static void update_panels(StudioWindow *window) {
     if (studio_document_contents(window->document) == NULL) {
-        studio_time_strip_show(window->strip, window->document, FR_NONE);
+        studio_time_strip_show(window->strip, window->document, FR_NONE, FR_NONE);
         return; // it was never well-formed: the text alone can be shown
     }
     follow_plant(window);
@@ -59,7 +59,7 @@ static void update_panels(StudioWindow *window) {
     studio_graph_panel_show(window->graph, window->document, studio_window_plant(window), selected);
     studio_things_panel_show(window->things, window->document, selected);
     studio_inspector_show(window->inspector, window->document, selected, window->diags);
-    studio_time_strip_show(window->strip, window->document, studio_window_plant(window));
+    studio_time_strip_show(window->strip, window->document, studio_window_plant(window), selected);
     studio_light_mode_update(window->light);
     studio_scene_tool_update(window->scene);
 }
@@ -204,6 +204,9 @@ void studio_window_take(StudioWindow *window, StudioDocument *document) {
     drop_document(window);
     window->document = document;
     window->moment = (StudioMoment){NAN, -1};
+    studio_inspector_show(window->inspector, document, FR_NONE, NULL);
+    studio_inspector_set_time(window->inspector, NAN);
+    studio_time_strip_reset(window->strip);
     g_clear_pointer(&window->selected, g_free);
     g_clear_pointer(&window->plant, g_free);
     studio_document_watch(document, on_document_changed, window);

@@ -16,6 +16,7 @@ static void on_selected(GObject *panel, guint element, StudioWindow *window) {
 static void on_time(StudioTimeStrip *strip, double time, StudioWindow *window) {
     (void)strip;
     window->moment.time = time;
+    studio_inspector_set_time(window->inspector, time);
     studio_window_request(window);
 }
 

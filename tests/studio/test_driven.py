@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import sys
 import tempfile
@@ -299,6 +300,38 @@ def test_curve(run):
     studio.wait()
     assert studio.state()["digest"] != before["digest"]
     run.picture("flower-curve")
+
+
+def test_keys(run):
+    """key frames are set by a button and a slider, dragged along the clock and removed"""
+    studio = run.studio
+    studio.ask("do select::stem")
+    studio.wait()
+    before = studio.state()
+    studio.click(studio.middle("length-key"))
+    studio.click(studio.middle("clock", 0.5))
+    studio.wait()
+    assert studio.state()["steps"] == before["steps"] + 1, studio.state()
+    x, y, width, height = studio.where("length-scale")
+    studio.drag([x + width * 0.4, y + height / 2], [x + width * 0.6, y + height / 2])
+    studio.wait()
+    assert studio.state()["steps"] == before["steps"] + 2, "a drag is one step"
+    set_at = re.search('length="keys 0,[0-9.]+ ([0-9.]+),[0-9.]+"', studio.text(run.home))
+    assert set_at is not None and 4.5 < float(set_at.group(1)) < 5.5, studio.text(run.home)
+    studio.drag(studio.middle("keys", 0.5), studio.middle("keys", 0.7))
+    studio.click(studio.middle("The key before"))
+    studio.click(studio.middle("The next key"))
+    run.picture("flower-keys")
+    moved_to = re.search('length="keys 0,[0-9.]+ ([0-9.]+),[0-9.]+"', studio.text(run.home))
+    assert float(moved_to.group(1)) > float(set_at.group(1)) + 1, studio.text(run.home)
+    assert studio.state()["steps"] == before["steps"] + 3, studio.state()
+    studio.click(studio.middle("length-key"))  # it is at the key
+    studio.wait()
+    assert re.search('length="keys 0,[0-9.]+"', studio.text(run.home)), studio.text(run.home)
+    for _ in range(4):
+        studio.ask("do undo")
+    studio.wait()
+    assert studio.state()["digest"] == before["digest"]
 
 
 def test_view(run):
@@ -610,7 +643,7 @@ def test_killed(run):
 
 
 TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_light, test_lamps, test_sketch,
-         test_device, test_flower, test_link, test_preset, test_slider, test_curve, test_view, test_hand,
+         test_device, test_flower, test_link, test_preset, test_slider, test_keys, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
 
