@@ -22,3 +22,6 @@ FR_API bool fr_distance_is_closed(const FrDistance *distance);
 /// in which it grows: away from the nearest point of the surface, or along the surface's normal for
 /// a point on it.
 FR_API double fr_distance_at(const FrDistance *distance, const double at[3], double outward[3]);
+/// The same where the surface is nearer than `reach`; else INFINITY, and `outward` stays as it is.
+FR_API double fr_distance_within(const FrDistance *distance, const double at[3], double reach,
+                                 double outward[3]);

@@ -62,6 +62,16 @@
       "internodes go along the sum of all directions, or turn a part of the way to light and up")  \
     X(REAL, turn_part, "0.4", 0, 1, "", "", "turning part: at most so much of the way")            \
     X(REAL, turn_limit, "180", 0, 180, "deg", "", "turns at most in an internode")                 \
+    /* climbing */                                                                                 \
+    X(REAL, climb, "0", 0, 100, "m", "",                                                           \
+      "from how far it feels a surface to hold on to; 0: it does not climb")                       \
+    X(REAL, cling, "0.5", 0, 1, "", "",                                                            \
+      "climb: how firmly internodes turn to the surface and along it")                             \
+    X(REAL, climb_wind, "0", -10, 10, "", "",                                                      \
+      "climb: turns to the right, as seen from outside, around what it holds on to")               \
+    X(REAL, climb_free, "0.6", 0.001, 1000, "m", "",                                               \
+      "climb: length of shoots without a hold at which they end")                                  \
+    X(REAL, climb_sag, "1", 0, 10, "", "", "climb: how much they hang down by then")               \
     /* light */                                                                                    \
     X(REAL, search, "0.5", 0, 5, "", "", "how much longer internodes are in shade")                \
     X(REAL, min_length, "0.3", 0.01, 1, "", "", "shortest internode, in steps")                    \
@@ -117,8 +127,8 @@
     X(REAL, leaf_length, "0.17", 0.0001, 100, "m", "", "of a blade")                               \
     X(REAL, leaf_width, "0.1", 0.0001, 100, "m", "", "of a blade")                                 \
     X(REAL, leaf_angle, "50", 0, 180, "deg", "", "between a blade and its axis")                   \
-    X(CHOICE, leaf_facing, "natural", 0, 0, "", "natural horizontal lit",                          \
-      "blades turn as they grow, lie level, or face the light")                                    \
+    X(CHOICE, leaf_facing, "natural", 0, 0, "", "natural horizontal lit outward",                  \
+      "blades turn as they grow, lie level, face the light, or turn away from what is climbed")    \
     X(REAL, foliage, "0.04", 0, 1000, "m", "", "area in m² that a leafy node shades")              \
     X(TEXT, leaf, "", 0, 0, "", "", "id of the material of leaves")
 
@@ -186,7 +196,7 @@ enum { FR_AXIS_MONOPODIAL, FR_AXIS_SYMPODIAL };
 enum { FR_GROWTH_CONTINUOUS, FR_GROWTH_RHYTHMIC, FR_GROWTH_BASAL };
 enum { FR_BEARING_UPRIGHT, FR_BEARING_LEVEL, FR_BEARING_BENT };
 enum { FR_KEEPS_OFF_TIP, FR_KEEPS_OFF_INTERNODE };
-enum { FR_LEAVES_NATURAL, FR_LEAVES_HORIZONTAL, FR_LEAVES_LIT };
+enum { FR_LEAVES_NATURAL, FR_LEAVES_HORIZONTAL, FR_LEAVES_LIT, FR_LEAVES_OUTWARD };
 enum { FR_MAX_ORDERS = 8 };
 
 typedef struct FrSpeciesParams {

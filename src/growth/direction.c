@@ -94,24 +94,34 @@ static vec3s turned_part(const FrGrowth *growth, const FrSpeciesParams *params,
                          glms_vec3_scale(across, sinf(part * angle) / length));
 }
 
+/// All that draws a bud besides chance.
+static vec3s drawn_to(const FrGrowth *growth, const FrReadySpecies *species,
+                      const FrGrownAxis *axis, const FrLiveBud *bud) {
+    const FrSpeciesParams *params = &species->params;
+    vec3s sum = bud->direction;
+    if (params->fate == FR_FATE_COLONIZE) { // its direction is already that of its particles
+        return glms_vec3_add(sum, glms_vec3_scale(growth->up, (float)params->gravitropism));
+    }
+    if (params->turning == FR_TURN_PART) {
+        sum = turned_part(growth, params, bud);
+    } else {
+        const FrOrderParams *order = fr_order_of(species, bud->row);
+        vec3s pull = gravity_pull(growth, params, order, axis, bud->direction);
+        if (fr_species_climbs(params)) {
+            pull = fr_climb_pull(growth, params, bud, pull);
+        }
+        sum = glms_vec3_add(sum, light_pull(growth, params, order, axis, bud->brightest));
+        sum = glms_vec3_add(sum, pull);
+    }
+    return glms_vec3_add(sum, glms_vec3_scale(bud->attraction, (float)params->attraction));
+}
+
 vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud,
                           uint32_t trial) {
     const FrReadySpecies *species = fr_species_of(growth, plant);
     const FrSpeciesParams *params = &species->params;
     const FrGrownAxis *axis = &plant->axes[bud->axis];
-    const FrOrderParams *order = fr_order_of(species, bud->row);
-    vec3s sum = bud->direction;
-    if (params->fate == FR_FATE_COLONIZE) { // its direction is already that of its particles
-        sum = glms_vec3_add(sum, glms_vec3_scale(growth->up, (float)params->gravitropism));
-    } else if (params->turning == FR_TURN_PART) {
-        sum = turned_part(growth, params, bud);
-    } else {
-        sum = glms_vec3_add(sum, light_pull(growth, params, order, axis, bud->brightest));
-        sum = glms_vec3_add(sum, gravity_pull(growth, params, order, axis, bud->direction));
-    }
-    if (params->fate != FR_FATE_COLONIZE) {
-        sum = glms_vec3_add(sum, glms_vec3_scale(bud->attraction, (float)params->attraction));
-    }
+    vec3s sum = drawn_to(growth, species, axis, bud);
     if (species->wander > 0) {
         sum = glms_vec3_add(
             sum, chance_across(bud->key, FR_CHANCE_TURN, axis->internodes, bud, species->wander));
@@ -125,7 +135,12 @@ vec3s fr_growth_direction(const FrGrowth *growth, const FrGrownPlant *plant, con
     if (length < 1e-4f) {
         return bud->direction;
     }
-    return limited(species, bud->direction, glms_vec3_scale(sum, 1 / length));
+    vec3s wanted = glms_vec3_scale(sum, 1 / length);
+    if (fr_species_climbs(params)) {
+        FrHold hold = fr_climb_feel(growth, params, fr_bud_world(plant, bud));
+        wanted = fr_climb_direction(growth, params, bud, &hold, wanted, trial);
+    }
+    return limited(species, bud->direction, wanted);
 }
 
 void fr_growth_turn(FrLiveBud *bud, vec3s direction, float twist) {

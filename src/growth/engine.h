@@ -48,6 +48,7 @@ typedef struct FrLiveBud {
     uint8_t is_relay;   ///< follows an ended axis
     uint8_t is_resting; ///< for a stronger apex ahead of it, in this step
     uint8_t is_reached; ///< has reached a particle
+    float unheld;       ///< climbing: wood since the last hold, m
 } FrLiveBud;
 
 /// A branch.
@@ -160,6 +161,7 @@ struct FrGrowth {
     FrVoxels *voxels;
     FrGrownObstacle *obstacles; ///< own copies
     uint32_t obstacle_count;
+    FrDistance *support, *support_ground; ///< what can be climbed; NULL: nothing, or nobody climbs
     vec3s *suns;
     FrLight *light; ///< borrowed, NULL: that of the parameters
     const FrLamp *lamps;
@@ -319,6 +321,29 @@ void fr_growth_sprout(const FrGrowth *growth, FrGrownPlant *plant, uint32_t inde
 void fr_growth_wake_bud(FrGrownPlant *plant, FrLiveBud *bud, uint64_t step);
 /// Ages all buds and wakes those that may.
 void fr_growth_wake(const FrGrowth *growth, FrGrownPlant *plant, FrScratch *scratch);
+
+// ---- climb.c ----------------------------------------------------------------------------------
+/// What a plant may hold on to near a place.
+typedef struct FrHold {
+    bool is_near;    ///< within reach
+    double distance; ///< m; below 0 inside
+    vec3s away;      ///< unit, from the surface
+} FrHold;
+
+/// Prepares what climbing species feel, if there are any.
+FR_MUST_USE FrStatus fr_growth_take_supports(FrGrowth *growth, const FrContext *context);
+static inline bool fr_species_climbs(const FrSpeciesParams *params) {
+    return params->climb > 0 && params->fate != FR_FATE_COLONIZE;
+}
+FrHold fr_climb_feel(const FrGrowth *growth, const FrSpeciesParams *params, vec3s world);
+/// What gravity does to a shoot that it would pull by `gravity` where it is held.
+vec3s fr_climb_pull(const FrGrowth *growth, const FrSpeciesParams *params, const FrLiveBud *bud,
+                    vec3s gravity);
+/// The direction of a bud that wants to grow along the unit vector `wanted`.
+vec3s fr_climb_direction(const FrGrowth *growth, const FrSpeciesParams *params,
+                         const FrLiveBud *bud, const FrHold *hold, vec3s wanted, uint32_t trial);
+/// Notes whether a bud has a hold at its new node. False if it has gone too far without.
+bool fr_climb_note(const FrGrowth *growth, const FrGrownPlant *plant, FrLiveBud *bud);
 
 // ---- auxin.c, honda.c -------------------------------------------------------------------------
 /// Auxin that reaches each node; in the scratch memory.

@@ -88,6 +88,8 @@ static void drop_obstacles(FrGrowth *growth) {
         g_free(growth->obstacles[i].positions);
         g_free(growth->obstacles[i].indices);
     }
+    fr_distance_free(growth->support);
+    fr_distance_free(growth->support_ground);
     g_free(growth->obstacles);
     g_free(growth->suns);
 }
@@ -139,7 +141,8 @@ static FrStatus take_setup(FrGrowth *growth, const FrGrowthSetup *setup, const F
                        : g_memdup2(setup->suns, (size_t)setup->params.suns * sizeof(vec3s));
     take_species(growth, setup);
     take_obstacles(growth, setup);
-    return fr_growth_stand_obstacles(growth, context);
+    FrStatus status = fr_growth_take_supports(growth, context);
+    return status == FR_OK ? fr_growth_stand_obstacles(growth, context) : status;
 }
 
 FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context, FrGrowth **growth) {

@@ -58,13 +58,29 @@ static versors frame_facing(vec3s face, vec3s along) {
     return glms_mat3_quat(matrix);
 }
 
-static versors leaf_frame(const FrMaking *making, vec3s along, vec3s light) {
+/// Like tiles of a roof: away from what is climbed, tips down and a little out.
+static versors tile_frame(const FrHold *hold, vec3s along, vec3s up) {
+    const float down = 1.2f, out = 0.35f;
+    vec3s flat = without(glms_vec3_sub(along, glms_vec3_scale(up, down)), hold->away);
+    flat = glms_vec3_norm2(flat) > 1e-4f ? glms_vec3_normalize(flat) : flat;
+    vec3s face = glms_vec3_sub(hold->away, glms_vec3_scale(flat, out));
+    return frame_facing(glms_vec3_normalize(face), flat);
+}
+
+static versors leaf_frame(const FrMaking *making, uint32_t node, vec3s along, vec3s light) {
     vec3s up = making->growth->up;
+    FrHold hold = {0};
+    if (making->species->params.leaf_facing == FR_LEAVES_OUTWARD) {
+        hold = fr_climb_feel(making->growth, &making->species->params,
+                             fr_grown_tip(making->from, node));
+    }
     switch (making->species->params.leaf_facing) {
     case FR_LEAVES_HORIZONTAL:
         return frame_facing(up, along);
     case FR_LEAVES_LIT:
         return frame_facing(light, along);
+    case FR_LEAVES_OUTWARD:
+        return hold.is_near ? tile_frame(&hold, along, up) : fr_frame_from_heading(along, up);
     default:
         return fr_frame_from_heading(along, up);
     }
@@ -89,7 +105,7 @@ static void add_leaves(FrMaking *making, uint32_t node, uint32_t shape, uint32_t
                                   glms_vec3_scale(up, (float)sin(around)));
         vec3s along = glms_vec3_add(glms_vec3_scale(heading, (float)cos(angle)),
                                     glms_vec3_scale(out, (float)sin(angle)));
-        versors world = leaf_frame(making, glms_vec3_normalize(along), light);
+        versors world = leaf_frame(making, node, glms_vec3_normalize(along), light);
         uint32_t organ = first + i;
         plant->organs.node[organ] = made;
         plant->organs.rotation[organ] = glms_quat_mul(glms_quat_conjugate(frame), world);

@@ -13,6 +13,15 @@ static const Preset presets[] = {
             "leaves=6;leaf-length=0.1;leaf-width=0.03;leaf-life=30"},
     {"frangipani", "model=leeuwenberg;step=0.3;step-ratio=0.92;dormancy=0;gravitropism=0.1;"
                    "leaves=4;leaf-length=0.18;leaf-width=0.06;tip-radius=0.01"},
+    // Common ivy: clings to what stands near, leaves in two rows along it.
+    {"ivy",
+     "model=open;step=0.08;step-ratio=0.95;length-noise=0.25;laterals=1;divergence=180;"
+     "branching-angle=42;dormancy=3;patience=30;auxin-reach=6;max-order=5;climb=0.35;"
+     "cling=0.7;climb-free=0.5;gravitropism=0.14;phototropism=0.05;wander=20;"
+     "branch-dark=0.05;branch-light=0.2;wake-light=0.1;shed=none;box=1;trials=8;trial-angle=40;"
+     "tip-radius=0.002;pipe-exponent=2.5;taper=0.05;leaves=1;leaf-life=200;"
+     "leaf-light=0.02;leaf-length=0.11;leaf-width=0.11;leaf-facing=outward;"
+     "foliage=0.006"},
     {"maple", "model=rauh;step=0.2;step-ratio=0.9;auxin-reach=2;dormancy=0;phototropism=0.25;"
               "leaves=3;leaf-life=6"},
     {"oak", "model=open;laterals=1;step=0.25;step-ratio=0.93;apical-control=1.05;auxin-reach=2;"
@@ -64,7 +73,8 @@ bool fr_species_preset(const char *name, FrSpeciesParams *params) {
 }
 
 const char *const *fr_species_presets(void) {
-    static const char *const names[] = {"fir",       "frangipani",      "maple", "oak", "poplar",
-                                        "published", "self-organizing", "vase",  NULL};
+    static const char *const names[] = {"fir",  "frangipani", "ivy",       "maple",
+                                        "oak",  "poplar",     "published", "self-organizing",
+                                        "vase", NULL};
     return names;
 }

@@ -159,7 +159,8 @@ static bool buds_are_right(const FrGrowth *growth, const FrGrownPlant *plant) {
             bud->state > FR_LIVE_DONE || bud->row > MAX(rows, FR_MAX_ORDERS) ||
             !is_unit(bud->direction) || !is_unit(bud->side) || !is_finite3(bud->brightest) ||
             !is_finite3(bud->attraction) || !(bud->light >= 0 && bud->light <= 1) ||
-            !isfinite(bud->vigour) || bud->is_relay > 1) {
+            !isfinite(bud->vigour) || bud->is_relay > 1 ||
+            !(bud->unheld >= 0 && bud->unheld < INFINITY)) {
             return false;
         }
     }

@@ -50,6 +50,7 @@ static void add_around(const FrGrowth *growth, FrGrownPlant *plant, FrLiveBud ap
         bud->side = side_of(growth, &species->orders[built], apex.direction, bud->direction, out);
         bud->light = apex.light;
         bud->brightest = apex.brightest;
+        bud->unheld = apex.unheld;
         bud->state = FR_LIVE_ASLEEP;
         bud->row = row;
         bud->is_relay = is_relay;

@@ -26,6 +26,11 @@ static void commit(FrGrowth *growth, const FrProposal *proposal) {
         return;
     }
     fr_growth_turn(bud, proposal->direction, (float)species->params.twist);
+    if (fr_species_climbs(&species->params) && !fr_climb_note(growth, plant, bud)) {
+        plant->axes[bud->axis].is_growing = false;
+        bud->state = FR_LIVE_DONE;
+        return;
+    }
     fr_growth_sprout(growth, plant, proposal->bud, node);
 }
 

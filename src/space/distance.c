@@ -371,17 +371,17 @@ static void ask(const Triangle *triangle, const double at[3], Nearest *nearest) 
     }
 }
 
-double fr_distance_at(const FrDistance *distance, const double at[3], double outward[3]) {
-    Nearest nearest = {.square = INFINITY};
+/// Looks only nearer than `nearest` is already.
+static void find_nearest(const FrDistance *distance, const double at[3], Nearest *nearest) {
     uint32_t stack[DEEPEST] = {0}, depth = 1;
     while (depth > 0) {
         uint32_t own = stack[--depth];
         const Node *node = &distance->nodes[own];
-        if (box_square(&node->box, at) >= nearest.square) {
+        if (box_square(&node->box, at) >= nearest->square) {
             continue;
         }
         for (uint32_t k = 0; k < node->count; k++) {
-            ask(&distance->triangles[node->first + k], at, &nearest);
+            ask(&distance->triangles[node->first + k], at, nearest);
         }
         if (node->count == 0) {
             const Box *low = &distance->nodes[own + 1].box;
@@ -390,6 +390,15 @@ double fr_distance_at(const FrDistance *distance, const double at[3], double out
             stack[depth++] = is_low_near ? node->second : own + 1;
             stack[depth++] = is_low_near ? own + 1 : node->second;
         }
+    }
+}
+
+double fr_distance_within(const FrDistance *distance, const double at[3], double reach,
+                          double outward[3]) {
+    Nearest nearest = {.square = reach * reach};
+    find_nearest(distance, at, &nearest);
+    if (nearest.normal == NULL) {
+        return INFINITY;
     }
     double size = sqrt(nearest.square);
     bool is_inside = distance->is_closed && dot(nearest.way, nearest.normal) < 0;
@@ -403,4 +412,8 @@ double fr_distance_at(const FrDistance *distance, const double at[3], double out
         }
     }
     return is_inside ? -size : size;
+}
+
+double fr_distance_at(const FrDistance *distance, const double at[3], double outward[3]) {
+    return fr_distance_within(distance, at, INFINITY, outward);
 }

@@ -5,6 +5,7 @@
 
 #include <glib.h>
 #include <math.h>
+#include <string.h>
 
 // A cube from −1 to 1, counter-clockwise from outside.
 static const vec3s cube[8] = {{{-1, -1, -1}}, {{1, -1, -1}}, {{1, 1, -1}}, {{-1, 1, -1}},
@@ -54,6 +55,24 @@ static void on_the_surface(void) {
     fr_distance_free(distance);
 }
 
+static void within_reach(void) {
+    FrDistance *distance = fr_distance_new(cube, 8, sides, 36);
+    for (uint32_t k = 0; k < 2000; k++) {
+        double at[3], all[3], near[3] = {7, 7, 7};
+        random_point(fr_key_root(5), k, 2, at);
+        double found = fr_distance_at(distance, at, all);
+        double within = fr_distance_within(distance, at, 0.4, near);
+        if (fabs(found) < 0.4) {
+            g_assert_cmpfloat(within, ==, found);
+            g_assert_true(memcmp(near, all, sizeof near) == 0);
+        } else {
+            g_assert_true(isinf(within));
+            g_assert_cmpfloat(near[0], ==, 7);
+        }
+    }
+    fr_distance_free(distance);
+}
+
 static void open_surface(void) {
     const vec3s sheet[3] = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}};
     const uint32_t corners[3] = {0, 1, 2};
@@ -99,6 +118,7 @@ int main(int argc, char **argv) {
 #define TEST(name, function) g_test_add_func("/space/distance/" name, function)
     TEST("a cube of triangles is as far as a cube", closed_form);
     TEST("on a face the way out is its normal", on_the_surface);
+    TEST("within a reach it is the same, beyond it there is none", within_reach);
     TEST("an open surface has no inside, and nothing no distance", open_surface);
     TEST("the tree finds the nearest of all triangles", every_triangle);
     return g_test_run();
