@@ -1,5 +1,11 @@
 #include "studio/accessible.h"
 
+double studio_letter_scale(GtkWidget *widget) {
+    int resolution; // 1024 × dots an inch
+    g_object_get(gtk_widget_get_settings(widget), "gtk-xft-dpi", &resolution, NULL);
+    return resolution <= 0 ? 1 : CLAMP(resolution / (96.0 * 1024), 0.75, 3);
+}
+
 static void set_label(GtkWidget *widget, const char *name) {
     gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 }

@@ -4,6 +4,8 @@
 
 #include <gtk/gtk.h>
 
+/// How much larger than usual the user wants letters to be: what is drawn by hand goes by that.
+double studio_letter_scale(GtkWidget *widget);
 /// Names a widget, and with it the button inside a menu button, drop-down or colour button, which
 /// is what has the focus. A drop-down's name goes on with what is chosen.
 void studio_name(GtkWidget *widget, const char *name);

@@ -101,7 +101,8 @@ static void where(Drive *drive, char *const *words, const char *name) {
         from = GTK_WIDGET(window->viewport);
     }
     if (!is_there) {
-        from = find_widget(GTK_WIDGET(window), name);
+        from = strcmp(name, "window") == 0 ? GTK_WIDGET(window)
+                                           : find_widget(GTK_WIDGET(window), name);
         is_there = from != NULL;
         if (is_there) {
             box = GRAPHENE_RECT_INIT(0, 0, (float)gtk_widget_get_width(from),
@@ -174,6 +175,14 @@ static gboolean on_wait(gpointer data) {
 static void size(Drive *drive, char *const *words, const char *rest) {
     (void)rest;
     gtk_window_set_default_size(GTK_WINDOW(drive->window), atoi(words[1]), atoi(words[2]));
+    answer("ok");
+}
+
+// How much larger letters are than usual.
+static void letters(Drive *drive, char *const *words, const char *rest) {
+    (void)rest;
+    GtkSettings *settings = gtk_widget_get_settings(GTK_WIDGET(drive->window));
+    g_object_set(settings, "gtk-xft-dpi", (int)(96 * 1024 * g_ascii_strtod(words[1], NULL)), NULL);
     answer("ok");
 }
 
@@ -361,6 +370,7 @@ static const struct {
     {"open", open_file, 2, false},
     {"wait", wait_for_rest, 1, true},
     {"size", size, 3, false},
+    {"letters", letters, 2, false},
     {"turn", turn, 4, false},
     {"orbit", orbit, 2, true},
     {"where", where, 2, false},

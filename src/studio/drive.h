@@ -10,6 +10,8 @@
 ///   open FILE              opens a document in the window
 ///   wait                   answers when all is built, painted and drawn
 ///   size WIDTH HEIGHT      of the window
+///   letters FACTOR         makes all letters larger
+///   focus, focus all       answers what has the keyboard; all that may have it
 ///   turn AZIMUTH ELEVATION ZOOM    the view, by degrees and a factor
 ///   orbit FRAMES           turns the view so often; answers how many seconds that took
 ///   where NAME             answers X Y WIDTH HEIGHT of a widget, or of the box of a component;

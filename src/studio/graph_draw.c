@@ -1,6 +1,8 @@
 /// How the graph panel looks.
 #include "studio/graph_panel_private.h"
 
+#include "studio/accessible.h"
+
 #include <math.h>
 
 enum { ICON = 20 };
@@ -188,7 +190,8 @@ static void draw_tools(StudioGraphPanel *panel, cairo_t *cairo, const GdkRGBA *i
     uint32_t kind =
         panel->drag == DRAG_NOTHING ? studio_graph_tool_under(panel, panel->x, panel->y) : FR_NONE;
     text_at(panel, cairo, kind != FR_NONE ? studio_graph_tool_name(kind) : tip, TOOL_PAD + 2,
-            top + 7, gtk_widget_get_width(GTK_WIDGET(panel)) - 2 * TOOL_PAD, 11.5, false);
+            top + 7, gtk_widget_get_width(GTK_WIDGET(panel)) - 2 * TOOL_PAD,
+            11.5 * studio_letter_scale(GTK_WIDGET(panel)), false);
     for (guint i = 1; i < TOOL_END; i++) {
         graphene_rect_t rect = studio_graph_tool_rect(panel, i);
         if (i == kind) {
@@ -209,15 +212,16 @@ static void draw_drag(StudioGraphPanel *panel, cairo_t *cairo) {
     char *words = studio_graph_words_of_drop(panel, &is_refused);
     draw_tool(cairo, tool, panel->x - 0.5 * ICON, panel->y - 0.5 * ICON, 0.35);
     if (words != NULL) {
+        double letter = studio_letter_scale(GTK_WIDGET(panel));
         double width = fmin(gtk_widget_get_width(GTK_WIDGET(panel)) - 12,
-                            8 + 6.6 * (double)g_utf8_strlen(words, -1));
+                            8 + 6.6 * letter * (double)g_utf8_strlen(words, -1));
         double x = CLAMP(panel->x - 0.5 * width, 6,
                          fmax(6, gtk_widget_get_width(GTK_WIDGET(panel)) - width - 6));
-        rounded(cairo, x, panel->y + 22, width, 22, 6);
+        rounded(cairo, x, panel->y + 22, width, 22 * letter, 6);
         cairo_set_source_rgba(cairo, is_refused ? 0.75 : 0.1, 0.12, 0.12, 0.92);
         cairo_fill(cairo);
         cairo_set_source_rgb(cairo, 1, 1, 1);
-        text_at(panel, cairo, words, x + 8, panel->y + 25, width - 12, 12, false);
+        text_at(panel, cairo, words, x + 8, panel->y + 25, width - 12, 12 * letter, false);
     }
     g_free(words);
 }
@@ -239,7 +243,7 @@ void studio_graph_draw(StudioGraphPanel *panel, GtkSnapshot *snapshot) {
     if (panel->graph->boxes->len == 0) {
         cairo_set_source_rgba(cairo, ink.red, ink.green, ink.blue, 0.6);
         text_at(panel, cairo, "No components: see Contents and Text", PAD, 2 * PAD, width - 2 * PAD,
-                13, false);
+                13 * studio_letter_scale(widget), false);
     } else {
         draw_tools(panel, cairo, &ink);
     }

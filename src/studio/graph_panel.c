@@ -145,10 +145,14 @@ void studio_graph_panel_show(StudioGraphPanel *panel, StudioDocument *document, 
         panel->shift_x = panel->shift_y = 0;
     }
     panel->document = document;
+    bool is_new = panel->selected != selected;
     panel->plant = plant;
     panel->selected = selected;
     studio_graph_free(panel->graph);
     panel->graph = studio_graph_new(studio_document_contents(document), plant);
+    if (is_new) {
+        studio_graph_reveal(panel, selected);
+    }
     panel->drag = DRAG_NOTHING; // what was held may be gone
     panel->over = FR_NONE;
     studio_graph_say(panel);

@@ -44,12 +44,16 @@ struct _StudioGraphPanel {
 // graph_places.c
 
 double studio_graph_tools_top(StudioGraphPanel *panel);
+/// The height of the words above the tools.
+double studio_graph_line(StudioGraphPanel *panel);
 graphene_rect_t studio_graph_tool_rect(StudioGraphPanel *panel, guint kind);
-/// How much smaller than it is meant to be the graph is drawn.
+/// How large the graph is drawn: smaller where there is little room, larger where letters are.
 double studio_graph_scale(StudioGraphPanel *panel);
 graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t box);
 /// What a tool is called.
 const char *studio_graph_tool_name(guint tool);
+/// Moves the graph so far that the box of an element is in sight.
+void studio_graph_reveal(StudioGraphPanel *panel, uint32_t element);
 /// The ends of a wire, and its two bends between them.
 void studio_graph_wire_course(StudioGraphPanel *panel, const StudioWire *wire, double at[4][2]);
 // What is under a point: FR_NONE where there is nothing.

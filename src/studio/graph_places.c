@@ -1,6 +1,8 @@
 /// Where things are in the graph panel.
 #include "studio/graph_panel_private.h"
 
+#include "studio/accessible.h"
+
 #include <math.h>
 
 static int width_of(StudioGraphPanel *panel) {
@@ -11,9 +13,14 @@ static guint tools_in_row(StudioGraphPanel *panel) {
     return (guint)MAX(1, (width_of(panel) - 2 * TOOL_PAD) / TOOL);
 }
 
+double studio_graph_line(StudioGraphPanel *panel) {
+    return 18 * studio_letter_scale(GTK_WIDGET(panel));
+}
+
 double studio_graph_tools_top(StudioGraphPanel *panel) {
     guint rows = (TOOL_END - 2) / tools_in_row(panel) + 1;
-    return gtk_widget_get_height(GTK_WIDGET(panel)) - (double)rows * TOOL - 2.0 * TOOL_PAD - 18;
+    return gtk_widget_get_height(GTK_WIDGET(panel)) - (double)rows * TOOL - 2.0 * TOOL_PAD -
+           studio_graph_line(panel);
 }
 
 const char *studio_graph_tool_name(guint tool) {
@@ -23,9 +30,10 @@ const char *studio_graph_tool_name(guint tool) {
 // Tools are all kinds but the camera, which every graph has, and presets.
 graphene_rect_t studio_graph_tool_rect(StudioGraphPanel *panel, guint kind) {
     guint place = kind - 1, in_row = tools_in_row(panel);
-    return GRAPHENE_RECT_INIT(
-        (float)(TOOL_PAD + place % in_row * TOOL),
-        (float)(studio_graph_tools_top(panel) + TOOL_PAD + 18 + place / in_row * TOOL), TOOL, TOOL);
+    return GRAPHENE_RECT_INIT((float)(TOOL_PAD + place % in_row * TOOL),
+                              (float)(studio_graph_tools_top(panel) + TOOL_PAD +
+                                      studio_graph_line(panel) + place / in_row * TOOL),
+                              TOOL, TOOL);
 }
 
 double studio_graph_scale(StudioGraphPanel *panel) {
@@ -33,7 +41,8 @@ double studio_graph_scale(StudioGraphPanel *panel) {
     double high = panel->graph->rows * (BOX_HEIGHT + GAP_Y) - GAP_Y + 2 * PAD;
     double fit =
         fmin(width_of(panel) / fmax(wanted, 1), studio_graph_tools_top(panel) / fmax(high, 1));
-    return CLAMP(fit, 0.62, 1);
+    double most = studio_letter_scale(GTK_WIDGET(panel));
+    return CLAMP(fit, 0.62 * most, most);
 }
 
 graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t index) {
@@ -45,6 +54,22 @@ graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t index) {
         (float)(left + box->column * (BOX_WIDTH + GAP_X) * scale + panel->shift_x),
         (float)(PAD + box->row * (BOX_HEIGHT + GAP_Y) * scale + panel->shift_y),
         (float)(BOX_WIDTH * scale), (float)(BOX_HEIGHT * scale));
+}
+
+// The least move that brings a stretch into a room.
+static double move_into(double begin, double size, double room) {
+    return begin < PAD ? PAD - begin : fmin(0, room - PAD - begin - size);
+}
+
+void studio_graph_reveal(StudioGraphPanel *panel, uint32_t element) {
+    for (guint i = 0; width_of(panel) > 0 && i < panel->graph->boxes->len; i++) {
+        if (studio_graph_box(panel->graph, i)->element == element) {
+            graphene_rect_t rect = studio_graph_box_rect(panel, i);
+            panel->shift_x += move_into(rect.origin.x, rect.size.width, width_of(panel));
+            panel->shift_y +=
+                move_into(rect.origin.y, rect.size.height, studio_graph_tools_top(panel));
+        }
+    }
 }
 
 static bool is_within(const graphene_rect_t *rect, double x, double y) {

@@ -234,7 +234,7 @@ static GtkWidget *make_line(StudioParamRow *row, const char *title) {
     GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
     row->name = gtk_label_new(title);
     gtk_label_set_xalign(GTK_LABEL(row->name), 0);
-    gtk_label_set_ellipsize(GTK_LABEL(row->name), PANGO_ELLIPSIZE_END);
+    gtk_label_set_wrap(GTK_LABEL(row->name), TRUE);
     gtk_widget_set_hexpand(row->name, TRUE);
     gtk_box_append(GTK_BOX(line), row->name);
     row->reset = flat_button("edit-undo-symbolic", "Back to the default");

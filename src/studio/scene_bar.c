@@ -168,7 +168,7 @@ static GtkWidget *make_bar(StudioSceneTool *tool) {
     GtkWidget *top = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 14);
     tool->hint = gtk_label_new("");
     gtk_label_set_xalign(GTK_LABEL(tool->hint), 0);
-    gtk_label_set_ellipsize(GTK_LABEL(tool->hint), PANGO_ELLIPSIZE_END);
+    gtk_label_set_wrap(GTK_LABEL(tool->hint), TRUE);
     gtk_widget_set_hexpand(tool->hint, TRUE);
     gtk_widget_add_css_class(tool->hint, "scene-hint");
     gtk_box_append(GTK_BOX(top), tool->hint);

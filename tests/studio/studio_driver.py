@@ -100,6 +100,7 @@ class Studio:
         if bus is not None:
             self.environment.update(bus.environment, GTK_A11Y="atspi")
         self.environment.update(variables or {})
+        self.dense = int(self.environment.get("GDK_SCALE", 1))  # pixels across one of the window
         self.program = subprocess.Popen(
             [STUDIO, "--drive", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             stderr=subprocess.PIPE, text=True, env=self.environment)
@@ -157,7 +158,7 @@ class Studio:
                        env=self.environment)
 
     def go(self, point):
-        self.pointer("mousemove", round(point[0]), round(point[1]))
+        self.pointer("mousemove", round(self.dense * point[0]), round(self.dense * point[1]))
 
     def click(self, point):
         self.go(point)

@@ -1,0 +1,161 @@
+"""The studio on screens of other kinds: with twice as many pixels across, small, with large letters."""
+
+import os
+import pathlib
+import shutil
+import tempfile
+
+import studio_driver as driver
+
+SOURCE = pathlib.Path(os.environ.get("FROND_SOURCE", "."))
+PICTURES = pathlib.Path(os.environ.get("FROND_PICTURES", "build/studio-pictures"))
+
+POLES = """<frond version="1">
+  <curve id="thick" points="0,1 0.5,0.6 1,0.2"/>
+  <plant id="p"><pgraph>
+    <camera id="root"/>
+    <horn id="pole" length="1" radius="0.05" profile="thick"/>
+    <link from="root" to="pole"/>
+  </pgraph></plant>
+  <scene><place plant="p" at="0, 0, 0"/><place plant="p" at="1, 0, 0"/></scene>
+</frond>
+"""
+
+
+class Run:
+    def __init__(self):
+        self.home = tempfile.mkdtemp(prefix="frond-studio-")
+        self.file = os.path.join(self.home, "poles.frond")
+        self.display = self.studio = None
+        with open(self.file, "w", encoding="utf-8") as file:
+            file.write(POLES)
+        PICTURES.mkdir(parents=True, exist_ok=True)
+
+    def on(self, width, height, dense=1):
+        """A display of that size, with a studio that fills it."""
+        self.close_display()
+        self.display = driver.Display(dense * width, dense * height)
+        self.studio = driver.Studio(self.display, self.home, variables={"GDK_SCALE": str(dense)})
+        self.studio.ask(f"size {width} {height}")
+        return self.studio
+
+    def open(self, file, select):
+        self.studio.ask(f"open {file}")
+        self.studio.wait()
+        self.studio.ask("do select::" + select)
+        self.studio.wait()
+
+    def close_display(self):
+        if self.studio is not None:
+            self.studio.kill()
+            self.display.close()
+
+    def close(self):
+        self.close_display()
+        shutil.rmtree(self.home)
+
+    def picture(self, name):
+        self.studio.wait()
+        self.studio.ask(f"picture {PICTURES / name}.png")
+
+
+def test_pick(run):
+    """with two pixels for one, what is clicked is what is seen"""
+    studio = run.on(1440, 900, dense=2)
+    run.open(run.file, "root")
+    studio.click(studio.point(1, 0, 0.5))
+    studio.wait()
+    assert studio.state()["selected"].endswith("horn:pole"), studio.state()
+    run.picture("dense")
+    studio.click(studio.point(0.5, 0, 0.5))
+    studio.wait()
+    assert studio.state()["selected"] == "", studio.state()
+    studio.click(studio.middle("box:root"))
+    assert studio.state()["selected"].endswith("camera:root"), studio.state()
+
+
+def test_handles(run):
+    """and handles are where they are drawn"""
+    studio = run.studio
+    studio.click(studio.middle("tool-move"))
+    studio.click(studio.point(1, 0, 0))
+    assert studio.state()["selected"].endswith("place#1"), studio.state()
+    foot, goal = studio.point(1, 0, 0), studio.point(1, -1, 0)
+    studio.drag(foot, goal)
+    studio.wait()
+    at = studio.text(run.home).split('<place plant="p" at="')[2].split('"')[0]
+    x, y, z = [float(number) for number in at.split(",")]
+    assert abs(x - 1) < 0.05 and abs(y + 1) < 0.05 and z == 0, at
+    studio.undo_all()
+    studio.ask("do select::thick")
+    studio.wait()
+    studio.drag(studio.middle("points-curve", 0.5, 0.45), studio.middle("points-curve", 0.5, 0.1))
+    studio.wait()
+    points = studio.text(run.home).split('<curve id="thick" points="')[1].split('"')[0].split()
+    x, y = [float(number) for number in points[1].split(",")]
+    assert len(points) == 3 and abs(x - 0.5) < 0.02 and y > 0.9, points
+
+
+def test_stroke(run):
+    """and a stroke is drawn under the pointer"""
+    studio = run.studio
+    shutil.copy(SOURCE / "examples" / "strokes.frond", run.home)
+    run.open(os.path.join(run.home, "strokes.frond"), "stem")
+    studio.ask("do sketch")
+    studio.wait()
+    studio.click(studio.middle("sketch-skeleton", 0.15, 0.06))
+    studio.pointer("key", "Home")
+    studio.drag(studio.middle("sketch-board", 0.3, 0.9), studio.middle("sketch-board", 0.7, 0.4))
+    studio.wait()
+    run.picture("dense-sketch")
+    assert studio.state()["steps"] == 1, studio.state()
+
+
+def fits(run, width, height):
+    """Whether the window stays on its display."""
+    _, _, *size = run.studio.where("window")
+    assert size[0] <= width and size[1] <= height, (size, width, height)
+
+
+def test_small(run):
+    """a window of 1280 by 720 shows every mode whole"""
+    studio = run.on(1280, 720)
+    fits(run, 1280, 720)
+    run.open(SOURCE / "examples" / "sunflower.frond", "petal")
+    fits(run, 1280, 720)
+    run.picture("small")
+    studio.ask("do scene-tool('paint')")
+    run.picture("small-paint")
+    fits(run, 1280, 720)
+    run.open(os.path.join(run.home, "strokes.frond"), "stem")
+    studio.ask("do sketch")
+    run.picture("small-sketch")
+    fits(run, 1280, 720)
+
+
+def test_letters(run):
+    """letters half as large again have room, in the graph, too"""
+    studio = run.on(1600, 1000)
+    run.open(SOURCE / "examples" / "sunflower.frond", "petal")
+    before = studio.where("box:root")
+    studio.ask("letters 1.5")
+    studio.wait()
+    fits(run, 1600, 1000)
+    assert studio.where("box:root")[3] > before[3], "the boxes of the graph stay small"
+    run.picture("large-letters")
+    assert studio.where("element-id")[3] > 30
+
+
+TESTS = [test_pick, test_handles, test_stroke, test_small, test_letters]
+
+
+def main():
+    reason = driver.why_not()
+    if reason is not None:
+        print(f"1..0 # SKIP {reason}")
+        return
+    driver.run_tests(TESTS, Run())
+
+
+if __name__ == "__main__":
+    main()
