@@ -12,7 +12,10 @@
     X(INTEGER, individuals, "4", 0, 100000, "", "",                                                \
       "how many different plants there are of each id; 0: every one is another")                   \
     X(NUMBER, turn, "0 ~ 180", -360000, 360000, "deg", "", "turned about the vertical")            \
-    X(NUMBER, scale, "1", 0.001, 1000, "", "", "size")
+    X(NUMBER, scale, "1", 0.001, 1000, "", "", "size")                                             \
+    X(TEXT, except, "", 0, 0, "", "",                                                              \
+      "numbers (from 0, as i in numbers) of plants that are left out; all others stay as they "    \
+      "are")
 
 /// A `<row>`: plants along a line. Its text is the points of the line.
 #define FR_ROW_PARAMS(X)                                                                           \
@@ -49,6 +52,7 @@ typedef struct FrRow {
     FR_SPREAD_PARAMS(FR_PARAM_FIELD)
     FR_ROW_PARAMS(FR_PARAM_FIELD)
     GArray *mix;     ///< FrMixPart
+    GArray *gaps;    ///< uint32_t: of `except`, ascending
     FrStroke *along; ///< owned
     FrSpan span;
 } FrRow;
@@ -57,6 +61,7 @@ typedef struct FrStrew {
     FR_SPREAD_PARAMS(FR_PARAM_FIELD)
     FR_STREW_PARAMS(FR_PARAM_FIELD)
     GArray *mix;      ///< FrMixPart
+    GArray *gaps;     ///< uint32_t: of `except`, ascending
     FrImage *picture; ///< of its density, owned; NULL: the same everywhere
     FrSpan span;
 } FrStrew;

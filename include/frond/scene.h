@@ -25,6 +25,7 @@ typedef struct FrStand {
     double turn; ///< radians about z
     double scale;
     uint32_t origin; ///< byte of the document where the element begins that has placed it; 0: none
+    uint32_t number; ///< which of the plants of that element, a row or an area, from 0
 } FrStand;
 
 /// One step of plants that grow in each other's light or bud by bud.
@@ -100,6 +101,10 @@ FR_API FrScene *fr_scene_single(const FrScene *scene, uint32_t plant);
 /// How many plants the document places: by hand, in rows and strewn.
 FR_API FR_MUST_USE FrStatus fr_scene_count(const FrDocument *document, const FrContext *context,
                                            uint64_t *count);
+/// What a `<place>` would say that stands where that plant of a row or an area does (origin and
+/// number as in FrStand); `place->plant` is borrowed from the document. False if there is none.
+FR_API bool fr_scene_find_placed(const FrDocument *document, uint32_t origin, uint32_t number,
+                                 const FrContext *context, FrPlace *place);
 FR_API void fr_scene_free(FrScene *scene);
 /// How many plants and stands of plants there are: those of obstacles come behind them.
 FR_API uint32_t fr_scene_plant_count(const FrScene *scene);

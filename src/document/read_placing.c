@@ -36,6 +36,7 @@ static void clear_part(void *data) {
 static void free_row(void *data) {
     FrRow *row = data;
     g_array_unref(row->mix);
+    g_array_unref(row->gaps);
     fr_stroke_unref(row->along);
     fr_params_clear(fr_row_table(), row);
     g_free(row);
@@ -44,6 +45,7 @@ static void free_row(void *data) {
 static void free_strew(void *data) {
     FrStrew *strew = data;
     g_array_unref(strew->mix);
+    g_array_unref(strew->gaps);
     if (strew->picture != NULL) {
         fr_image_unref(strew->picture);
     }
@@ -138,6 +140,34 @@ static GArray *read_mix(FrReader *reader, uint32_t node, const char *text) {
     return mix;
 }
 
+static int compare_numbers(const void *a, const void *b) {
+    uint32_t left = *(const uint32_t *)a, right = *(const uint32_t *)b;
+    return left == right ? 0 : left < right ? -1 : 1;
+}
+
+/// Reads "3 17 20".
+static GArray *read_gaps(FrReader *reader, uint32_t node, const char *text) {
+    GArray *gaps = g_array_new(FALSE, FALSE, sizeof(uint32_t));
+    for (const char *at = text == NULL ? "" : text; *at != '\0';) {
+        if (g_ascii_isspace(*at)) {
+            at++;
+            continue;
+        }
+        char *end = NULL;
+        guint64 number = g_ascii_isdigit(*at) ? g_ascii_strtoull(at, &end, 10) : 0;
+        if (end == NULL || number >= UINT32_MAX || (*end != '\0' && !g_ascii_isspace(*end))) {
+            fr_read_error(reader, "bad-except", fr_read_value_place(reader, node, "except"),
+                          "plants that are left out are numbers such as '3 17', not '%.64s'", at);
+            break;
+        }
+        uint32_t gap = (uint32_t)number;
+        g_array_append_val(gaps, gap);
+        at = end;
+    }
+    g_array_sort(gaps, compare_numbers);
+    return gaps;
+}
+
 static void read_row(FrReader *reader, uint32_t node) {
     fr_read_check_children(reader, node, FR_ELEMENT_ROW);
     FrRow *row = g_new0(FrRow, 1);
@@ -145,6 +175,7 @@ static void read_row(FrReader *reader, uint32_t node) {
     row->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
     fr_read_attributes(reader, node, FR_ELEMENT_ROW, row);
     row->mix = read_mix(reader, node, row->plants);
+    row->gaps = read_gaps(reader, node, row->except);
     row->along = fr_read_line(reader, node);
     g_ptr_array_add(reader->document->rows, row);
 }
@@ -156,6 +187,7 @@ static void read_strew(FrReader *reader, uint32_t node) {
     strew->span = fr_xml_span(reader->tree, reader->tree->nodes[node].name);
     fr_read_attributes(reader, node, FR_ELEMENT_STREW, strew);
     strew->mix = read_mix(reader, node, strew->plants);
+    strew->gaps = read_gaps(reader, node, strew->except);
     strew->picture = fr_read_picture(reader, node, "density", strew->density);
     g_ptr_array_add(reader->document->strews, strew);
 }

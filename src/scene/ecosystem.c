@@ -72,8 +72,8 @@ static void list_definitions(FrEcosystem *ecosystem) {
 }
 
 /// Adds a seed, and an empty plant of the scene for it.
-static void add_seed(FrEcosystem *ecosystem, FrScene *scene, const FrSeed *seed, uint32_t origin,
-                     bool is_old) {
+static void add_seed(FrEcosystem *ecosystem, FrScene *scene, const FrSeed *seed,
+                     const FrStand *from, bool is_old) {
     // Of an old one, the number of its stand and 1.
     g_hash_table_insert(ecosystem->ids, g_memdup2(&seed->id, sizeof seed->id),
                         GUINT_TO_POINTER(is_old ? scene->stands->len + 1 : 0));
@@ -83,7 +83,10 @@ static void add_seed(FrEcosystem *ecosystem, FrScene *scene, const FrSeed *seed,
     FrScenePlant made = {.plant = fr_plant_new(definition->id)};
     made.by_component = g_new0(uint64_t, 1);
     // A plant grows where it stands: upright, and of its own size.
-    FrStand stand = {.plant = scene->plants->len, .scale = 1, .origin = origin};
+    FrStand stand = {.plant = scene->plants->len,
+                     .scale = 1,
+                     .origin = from == NULL ? 0 : from->origin,
+                     .number = from == NULL ? 0 : from->number};
     memcpy(stand.at, seed->at, sizeof stand.at);
     g_array_append_val(scene->plants, made);
     g_array_append_val(scene->stands, stand);
@@ -105,7 +108,7 @@ FrEcosystem *fr_ecosystem_new(const FrDocument *document, int64_t seed, uint32_t
     for (uint32_t i = 0; i < old; i++) {
         FrSeed seed_of = fr_growth_seed(previous->growth, i);
         if (seed_of.species < made->definitions->len) {
-            add_seed(made, scene, &seed_of, 0, true);
+            add_seed(made, scene, &seed_of, NULL, true);
         }
     }
     return made;
@@ -117,8 +120,9 @@ void fr_ecosystem_add(FrEcosystem *ecosystem, FrScene *scene, const FrPlaced *pl
     gpointer old;
     while (g_hash_table_lookup_extended(ecosystem->ids, &seed.id, NULL, &old)) {
         if (old != NULL) { // it stands there already
-            g_array_index(scene->stands, FrStand, GPOINTER_TO_UINT(old) - 1).origin =
-                placed->stand.origin;
+            FrStand *stand = &g_array_index(scene->stands, FrStand, GPOINTER_TO_UINT(old) - 1);
+            stand->origin = placed->stand.origin;
+            stand->number = placed->stand.number;
             g_hash_table_insert(ecosystem->ids, g_memdup2(&seed.id, sizeof seed.id), NULL);
             return;
         }
@@ -128,7 +132,7 @@ void fr_ecosystem_add(FrEcosystem *ecosystem, FrScene *scene, const FrPlaced *pl
     bool is_known = g_ptr_array_find(ecosystem->definitions, placed->plant, &index);
     FR_ASSERT(is_known);
     seed.species = index;
-    add_seed(ecosystem, scene, &seed, placed->stand.origin, false);
+    add_seed(ecosystem, scene, &seed, &placed->stand, false);
 }
 
 // ---- the world --------------------------------------------------------------------------------

@@ -60,7 +60,8 @@ typedef struct Spread {
     double whole;              ///< all shares
     uint64_t seed, individuals;
     const FrNumber *turn, *scale;
-    uint64_t count; ///< of plants, at most
+    uint64_t count;     ///< of plants, at most
+    const GArray *gaps; ///< uint32_t, ascending: plants that are left out
     FrSpan span;
 } Spread;
 
@@ -99,19 +100,35 @@ static guint draw_part(const Spread *spread, FrKey key) {
     return part;
 }
 
-/// Adds plant `index` of `count` where a row or an area has a place for it.
+static int compare_numbers(const void *a, const void *b) {
+    uint32_t left = *(const uint32_t *)a, right = *(const uint32_t *)b;
+    return left == right ? 0 : left < right ? -1 : 1;
+}
+
+static bool is_left_out(const Spread *spread, uint64_t index) {
+    uint32_t number = (uint32_t)index;
+    return spread->gaps->len > 0 && index < UINT32_MAX &&
+           bsearch(&number, spread->gaps->data, spread->gaps->len, sizeof number,
+                   compare_numbers) != NULL;
+}
+
+/// Adds plant `index` of `count`, unless it is left out, where a row or an area has a place for it.
 static void add_spread(Placing *placing, const Spread *spread, uint64_t index, const double at[3],
                        double turn) {
+    if (is_left_out(spread, index)) {
+        return;
+    }
     FrKey key = fr_key_child(fr_key_root(spread->seed), index);
     guint part = draw_part(spread, key);
     FrVars vars = {.key = key};
     vars.value[FR_VAR_i] = (double)index;
     vars.value[FR_VAR_n] = (double)spread->count;
     vars.value[FR_VAR_t] = spread->count > 1 ? (double)index / (double)(spread->count - 1) : 0;
-    FrPlaced placed = {
-        .plant = spread->plants[part],
-        .stand = {.at = {at[0], at[1], at[2]}, .origin = fr_span_outermost(spread->span).begin},
-        .span = spread->span};
+    FrPlaced placed = {.plant = spread->plants[part],
+                       .stand = {.at = {at[0], at[1], at[2]},
+                                 .origin = fr_span_outermost(spread->span).begin,
+                                 .number = (uint32_t)index},
+                       .span = spread->span};
     placed.stand.turn = turn + fr_number_eval(spread->turn, &vars, 0, NULL);
     placed.stand.scale = fr_number_eval(spread->scale, &vars, 1, NULL);
     uint64_t individual = spread->individuals == 0
@@ -203,6 +220,7 @@ static FrStatus add_row(Placing *placing, const FrRow *row) {
                      .turn = &row->turn,
                      .scale = &row->scale,
                      .count = fr_count_multiply(along, (uint64_t)row->rows),
+                     .gaps = row->gaps,
                      .span = row->span};
     FrStatus status = begin_spread(placing, &spread);
     for (uint64_t i = 0; i < spread.count && status == FR_OK; i++) {
@@ -302,6 +320,7 @@ static FrStatus add_strew(Placing *placing, const FrStrew *strew) {
                      .turn = &strew->turn,
                      .scale = &strew->scale,
                      .count = (uint64_t)strew->number,
+                     .gaps = strew->gaps,
                      .span = strew->span};
     FrStatus status = begin_spread(placing, &spread);
     if (status == FR_OK) {
@@ -316,7 +335,7 @@ static FrStatus add_strew(Placing *placing, const FrStrew *strew) {
         }
         guint before = placing->placed->len;
         add_points(placing, &spread, &area, points);
-        if (placing->placed->len == before && spread.count > 0) {
+        if (placing->placed->len == before && spread.count > 0 && strew->gaps->len == 0) {
             fr_diags_add(placing->context->diags, FR_WARNING, "no-room", strew->span,
                          "no plant finds a place in this area");
         }
@@ -369,6 +388,28 @@ FrStatus fr_scene_places(const FrDocument *document, const FrHills *hills, const
     }
     *placed = placing.placed;
     return status;
+}
+
+bool fr_scene_find_placed(const FrDocument *document, uint32_t origin, uint32_t number,
+                          const FrContext *context, FrPlace *place) {
+    GArray *placed;
+    bool is_found = false;
+    FrStatus status = fr_scene_places(document, NULL, context, &placed);
+    for (guint i = 0; status == FR_OK && i < placed->len && !is_found; i++) {
+        const FrPlaced *one = &g_array_index(placed, FrPlaced, i);
+        is_found = one->stand.origin == origin && one->stand.number == number;
+        if (is_found) {
+            *place = (FrPlace){
+                .plant = one->plant->id,
+                .at = {{(float)one->stand.at[0], (float)one->stand.at[1], (float)one->stand.at[2]}},
+                .turn = one->stand.turn,
+                .scale = one->stand.scale,
+                .seed = one->seed,
+                .span = one->span};
+        }
+    }
+    g_clear_pointer(&placed, g_array_unref);
+    return is_found;
 }
 
 FrStatus fr_scene_count(const FrDocument *document, const FrContext *context, uint64_t *count) {

@@ -131,9 +131,10 @@ static void on_option(GObject *object, GParamSpec *spec, StudioSceneTool *tool) 
 static GtkWidget *make_options(StudioSceneTool *tool) {
     static const char *const shapes[] = {"Box", "Ball", "Cylinder", "Cone", "Mesh file…", NULL};
     GtkWidget *box = studio_wrap_box_new(12);
-    GtkWidget *groups[5];
-    for (int i = 0; i < 5; i++) {
-        groups[i] = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+    GtkWidget *groups[SCENE_GROUP_COUNT];
+    for (int i = 0; i < SCENE_GROUP_COUNT; i++) {
+        groups[i] = i == SCENE_GROUP_COUNT - 1 ? studio_scene_one_bar(tool)
+                                               : gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
         studio_wrap_box_append(STUDIO_WRAP_BOX(box), groups[i]);
     }
     tool->what = labelled(groups[0], "_What", gtk_drop_down_new_from_strings(NULL),
@@ -241,7 +242,8 @@ void studio_scene_show_hint(StudioSceneTool *tool) {
 }
 
 void studio_scene_update_bars(StudioSceneTool *tool) {
-    static const bool shown[SCENE_TOOL_COUNT][5] = {
+    static const bool shown[SCENE_TOOL_COUNT][SCENE_GROUP_COUNT] = {
+        [SCENE_MOVE] = {[SCENE_GROUP_COUNT - 1] = true},
         [SCENE_PLANT] = {true},
         [SCENE_PAINT] = {true, true, true},
         [SCENE_TAKE_OUT] = {false, true},
@@ -249,9 +251,10 @@ void studio_scene_update_bars(StudioSceneTool *tool) {
         [SCENE_ROAD] = {false, false, false, false, true},
     };
     list_again(tool);
-    for (int i = 0; i < 5; i++) {
-        gtk_widget_set_visible(tool->groups[i], shown[tool->tool][i]);
+    for (int i = 0; i < SCENE_GROUP_COUNT; i++) {
+        bool is_wanted = i != SCENE_GROUP_COUNT - 1 || tool->one_of != NULL;
+        gtk_widget_set_visible(tool->groups[i], shown[tool->tool][i] && is_wanted);
     }
     studio_scene_show_hint(tool);
-    gtk_revealer_set_reveal_child(GTK_REVEALER(tool->bar), tool->tool != SCENE_SELECT);
+    studio_window_reveal(tool->bar, tool->tool != SCENE_SELECT);
 }

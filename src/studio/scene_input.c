@@ -118,6 +118,12 @@ static gboolean on_key(GtkEventControllerKey *controller, guint key, guint code,
         return gtk_widget_activate_action(GTK_WIDGET(tool->window->viewport), "win.frame-all",
                                           NULL);
     }
+    if (tool->one_of != NULL && tool->tool == SCENE_MOVE &&
+        (key == GDK_KEY_t || (key == GDK_KEY_Delete && (state & GDK_SHIFT_MASK) != 0))) {
+        return gtk_widget_activate_action(GTK_WIDGET(tool->window->viewport),
+                                          key == GDK_KEY_t ? "win.take-one" : "win.leave-one-out",
+                                          NULL);
+    }
     if (key == GDK_KEY_Delete && tool->has_standing) {
         return gtk_widget_activate_action(GTK_WIDGET(tool->window->viewport), "win.remove", NULL);
     }

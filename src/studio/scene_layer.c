@@ -277,6 +277,10 @@ static void draw(StudioSceneTool *tool, cairo_t *cairo) {
     if (shows && studio_gizmo_place(&eye, pivot, &tool->standing, &gizmo)) {
         draw_gizmo(cairo, &gizmo, tool->held != STUDIO_GRIP_NONE ? tool->held : tool->over);
     }
+    if (tool->tool == SCENE_MOVE && tool->one_of != NULL) {
+        draw_circle(cairo, &eye, ground, tool->one_at, 12 * studio_eye_pixel(&eye, tool->one_at),
+                    amber);
+    }
     if (tool->over == STUDIO_GRIP_NONE) {
         draw_pointer(tool, cairo, &eye, ground);
     }

@@ -72,7 +72,7 @@ static void paint(StudioSceneTool *tool, const double at[3]) {
     g_array_unref(places);
 }
 
-// Removes places within the brush; what is placed as a whole stays.
+// Removes places within the brush, and leaves out plants of rows and areas.
 static void take_out(StudioSceneTool *tool, const double at[3]) {
     StudioWindow *window = tool->window;
     const FrContents *contents = studio_document_contents(window->document);
@@ -87,6 +87,7 @@ static void take_out(StudioSceneTool *tool, const double at[3]) {
             g_array_append_val(gone, place);
         }
     }
+    studio_scene_leave_out(tool, at, radius); // it renumbers no element
     if (gone->len > 0) {
         studio_window_select(window, FR_NONE);
         studio_take_out(window->document, (const uint32_t *)(const void *)gone->data, gone->len,
@@ -219,7 +220,9 @@ void studio_scene_stroke_begin(StudioSceneTool *tool, const double pixel[2]) {
         tool->grabbed = tool->written = tool->standing;
     } else if (tool->tool == SCENE_PAINT || tool->tool == SCENE_TAKE_OUT) {
         g_clear_pointer(&tool->taken, g_array_unref);
+        g_clear_pointer(&tool->ones, g_array_unref);
         tool->taken = stands_of(tool->window->builder);
+        tool->ones = studio_scene_ones(tool);
         double at[3];
         if (studio_scene_ground(tool, pixel, at)) {
             dab(tool, at);
@@ -256,6 +259,7 @@ void studio_scene_stroke_end(StudioSceneTool *tool) {
     }
     g_clear_pointer(&tool->line, g_array_unref);
     g_clear_pointer(&tool->taken, g_array_unref);
+    g_clear_pointer(&tool->ones, g_array_unref);
     studio_document_seal(tool->window->document);
     gtk_widget_queue_draw(tool->layer);
 }

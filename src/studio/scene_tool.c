@@ -15,9 +15,7 @@ static const SceneToolKind kinds[SCENE_TOOL_COUNT] = {
     {"paint", "studio-tool-paint-symbolic", "Paint plants with a brush (B)",
      "Drag over the ground; the right button moves the view, arrows turn it", GDK_KEY_b},
     {"take-out", "studio-tool-take-out-symbolic", "Take plants out of the scene (X)",
-     "Drag over plants; rows and strewn plants go as a whole,\n"
-     "by Move and Delete",
-     GDK_KEY_x},
+     "Drag over plants; those of rows and areas go one by one, too", GDK_KEY_x},
     {"obstacle", "studio-tool-obstacle-symbolic", "Add an obstacle (O)",
      "Click where it shall stand", GDK_KEY_o},
     {"road", "studio-tool-road-symbolic", "Draw a road (R)",
@@ -73,8 +71,7 @@ static StudioHit hit_at(const StudioSceneTool *tool, const double pixel[2]) {
     return studio_builder_hit(tool->window->builder, origin, direction, spread);
 }
 
-// The element of the document that a hit belongs to; FR_NONE while the picture is an older one.
-static uint32_t element_of(const StudioSceneTool *tool, uint32_t origin) {
+uint32_t studio_scene_element(const StudioSceneTool *tool, uint32_t origin) {
     const StudioWindow *window = tool->window;
     const FrContents *contents = studio_document_contents(window->document);
     bool is_current = window->shown == studio_document_revision(window->document);
@@ -155,18 +152,23 @@ static bool stand_obstacle(StudioSceneTool *tool, const double at[3]) {
 }
 
 // A seed is too small to be met: what stands within a few pixels.
-static uint32_t seed_near(const StudioSceneTool *tool, const double pixel[2]) {
+static StudioHit seed_near(const StudioSceneTool *tool, const double pixel[2]) {
     StudioEye eye = studio_scene_eye(tool);
     GArray *stands = studio_builder_stands(tool->window->builder);
-    uint32_t found = 0;
+    StudioHit found = {.kind = STUDIO_HIT_NOTHING};
     double nearest = foot_pixels;
     for (guint i = 0; i < stands->len; i++) {
         const StudioStand *stand = &g_array_index(stands, StudioStand, i);
         double foot[2];
         if (studio_eye_project(&eye, stand->at, foot)) {
             double away = hypot(foot[0] - pixel[0], foot[1] - pixel[1]);
-            found = away < nearest ? stand->origin : found;
-            nearest = fmin(nearest, away);
+            if (away < nearest && stand->origin != 0) {
+                found = (StudioHit){.kind = STUDIO_HIT_PLANT,
+                                    .foot = {stand->at[0], stand->at[1], stand->at[2]},
+                                    .origin = stand->origin,
+                                    .number = stand->number};
+                nearest = away;
+            }
         }
     }
     g_array_unref(stands);
@@ -177,15 +179,16 @@ static void grab(StudioSceneTool *tool, const double pixel[2]) {
     StudioWindow *window = tool->window;
     StudioHit hit = hit_at(tool, pixel);
     if (hit.kind != STUDIO_HIT_PLANT && hit.kind != STUDIO_HIT_OBSTACLE) {
-        hit.origin = seed_near(tool, pixel);
-        hit.kind = hit.origin != 0 ? STUDIO_HIT_PLANT : hit.kind;
+        hit = seed_near(tool, pixel);
     }
     if (hit.kind == STUDIO_HIT_PLANT && hit.origin == 0 && studio_place_first(window->document)) {
         studio_window_select(window, studio_scene_last(window->document, "place"));
         return;
     }
     bool is_thing = hit.kind == STUDIO_HIT_PLANT || hit.kind == STUDIO_HIT_OBSTACLE;
-    studio_window_select(window, is_thing ? element_of(tool, hit.origin) : FR_NONE);
+    uint32_t element = is_thing ? studio_scene_element(tool, hit.origin) : FR_NONE;
+    studio_window_select(window, element);
+    studio_scene_set_one(tool, element, hit.number, hit.foot);
 }
 
 bool studio_scene_act(StudioSceneTool *tool, const double pixel[2]) {
@@ -216,7 +219,8 @@ bool studio_scene_tool_click(StudioSceneTool *tool, double x, double y) {
     const double pixel[2] = {0.5 * (1 + x) * eye.width, 0.5 * (1 - y) * eye.height};
     if (tool->tool == SCENE_SELECT) { // an obstacle has no branches to choose from
         StudioHit hit = tool->window->builder == NULL ? (StudioHit){0} : hit_at(tool, pixel);
-        uint32_t element = hit.kind == STUDIO_HIT_OBSTACLE ? element_of(tool, hit.origin) : FR_NONE;
+        uint32_t element =
+            hit.kind == STUDIO_HIT_OBSTACLE ? studio_scene_element(tool, hit.origin) : FR_NONE;
         if (element != FR_NONE) {
             studio_window_select(tool->window, element);
         }
@@ -283,6 +287,9 @@ void studio_scene_tool_update(StudioSceneTool *tool) {
     tool->has_standing =
         is_there && !studio_document_is_broken(window->document) &&
         studio_standing_read(window->document, studio_window_selected(window), &tool->standing);
+    if (g_strcmp0(tool->one_of, window->selected) != 0) {
+        g_clear_pointer(&tool->one_of, g_free);
+    }
     studio_scene_update_bars(tool);
     gtk_widget_queue_draw(tool->layer);
 }
@@ -292,6 +299,8 @@ void studio_scene_tool_reset(StudioSceneTool *tool) {
     tool->has_standing = tool->is_sized = false;
     g_clear_pointer(&tool->line, g_array_unref);
     g_clear_pointer(&tool->taken, g_array_unref);
+    g_clear_pointer(&tool->ones, g_array_unref);
+    g_clear_pointer(&tool->one_of, g_free);
     studio_scene_choose(tool, SCENE_SELECT);
 }
 
@@ -299,7 +308,9 @@ void studio_scene_tool_free(StudioSceneTool *tool) {
     if (tool != NULL) {
         g_clear_pointer(&tool->line, g_array_unref);
         g_clear_pointer(&tool->taken, g_array_unref);
+        g_clear_pointer(&tool->ones, g_array_unref);
         g_ptr_array_unref(tool->plants);
+        g_free(tool->one_of);
         g_free(tool->key);
         g_free(tool);
     }
@@ -310,6 +321,7 @@ StudioSceneTool *studio_scene_tool_new(StudioWindow *window, GtkOverlay *overlay
     tool->window = window;
     tool->plants = g_ptr_array_new_with_free_func(g_free);
     studio_scene_add_actions(tool);
+    studio_scene_add_one_actions(tool);
     tool->layer = studio_scene_layer_new(tool);
     gtk_overlay_add_overlay(overlay, tool->layer);
     studio_scene_add_bars(tool, overlay);

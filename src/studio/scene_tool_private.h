@@ -21,6 +21,8 @@ typedef enum SceneTool {
     SCENE_TOOL_COUNT,
 } SceneTool;
 
+enum { SCENE_GROUP_COUNT = 6 }; ///< groups of options
+
 typedef struct SceneToolKind {
     const char *name, *icon, *tip, *hint;
     guint key;
@@ -29,7 +31,7 @@ typedef struct SceneToolKind {
 struct StudioSceneTool {
     StudioWindow *window;
     SceneTool tool;
-    GtkWidget *layer, *hint, *groups[5];
+    GtkWidget *layer, *hint, *groups[SCENE_GROUP_COUNT], *one_label;
     GtkWidget *what, *radius, *density, *shape, *width, *bar;
     GPtrArray *plants; ///< names of what can be planted; presets begin with "preset:"
 
@@ -37,6 +39,11 @@ struct StudioSceneTool {
     bool is_hovering, is_drawing;
     bool is_sized;      ///< brush and road suit the document
     StudioCamera drawn; ///< what the layer was drawn with
+
+    char *one_of; ///< place of the row or area of which one plant was clicked; NULL
+    uint32_t one; ///< its number
+    double one_at[3];
+    GArray *ones; ///< plants of rows and areas, while a brush takes out
 
     bool has_standing; ///< what is selected can be moved
     StudioStanding standing;
@@ -67,6 +74,8 @@ void studio_scene_say_no_ground(StudioSceneTool *tool);
 double studio_scene_rounded(const StudioSceneTool *tool, double value);
 /// The plant whose envelope is drawn, and the foot of its axis; FR_NONE.
 uint32_t studio_scene_species(const StudioSceneTool *tool, double foot[3]);
+/// The element of the document that begins at a byte; FR_NONE while the picture is an older one.
+uint32_t studio_scene_element(const StudioSceneTool *tool, uint32_t origin);
 /// Does what a click would do at a pixel.
 bool studio_scene_act(StudioSceneTool *tool, const double pixel[2]);
 /// Moves, turns and scales what is selected by keys; false: the key is none of those.
@@ -79,6 +88,19 @@ void studio_scene_stroke_go(StudioSceneTool *tool, const double pixel[2]);
 void studio_scene_stroke_end(StudioSceneTool *tool);
 /// The point on the upright plane through an axis that faces the camera: radius, height.
 bool studio_scene_on_profile(const StudioSceneTool *tool, const double pixel[2], double at[2]);
+
+// scene_one.c
+
+/// The plant of a row or an area (the element) that was clicked; another element: none.
+void studio_scene_set_one(StudioSceneTool *tool, uint32_t element, uint32_t number,
+                          const double at[3]);
+void studio_scene_add_one_actions(StudioSceneTool *tool);
+/// What can be done with it.
+GtkWidget *studio_scene_one_bar(StudioSceneTool *tool);
+/// All plants of rows and areas; free with g_array_unref().
+GArray *studio_scene_ones(const StudioSceneTool *tool);
+/// Leaves out those of them within a radius.
+void studio_scene_leave_out(StudioSceneTool *tool, const double at[3], double radius);
 
 // scene_input.c
 

@@ -123,7 +123,7 @@ void studio_window_update_problem(StudioWindow *window) {
             worst = diag;
         }
     }
-    gtk_revealer_set_reveal_child(GTK_REVEALER(window->problem), worst != NULL);
+    studio_window_reveal(window->problem, worst != NULL);
     if (worst == NULL) {
         return;
     }

@@ -104,7 +104,7 @@ static gboolean on_poll(gpointer data) {
     double fraction = 0, seconds = 0;
     bool is_busy = studio_builder_is_busy(window->builder, &fraction, &seconds);
     bool is_long = is_busy && seconds > busy_after;
-    gtk_revealer_set_reveal_child(GTK_REVEALER(window->busy), is_long);
+    studio_window_reveal(window->busy, is_long);
     if (is_long) {
         gtk_label_set_text(GTK_LABEL(window->busy_text),
                            studio_builder_is_looking(window->builder) ? "Light" : "Building");
@@ -169,7 +169,7 @@ void studio_window_unpick(StudioWindow *window) {
         window->picked = (StudioPicked){0};
         studio_viewport_highlight(window->viewport, NULL, 0);
     }
-    gtk_revealer_set_reveal_child(GTK_REVEALER(window->picked_bar), FALSE);
+    studio_window_reveal(window->picked_bar, FALSE);
 }
 
 static void show_picked(StudioWindow *window) {
@@ -179,7 +179,7 @@ static void show_picked(StudioWindow *window) {
     char *text = g_strdup_printf("One of %s, %.2f m away", picked->component, picked->distance);
     gtk_label_set_text(GTK_LABEL(window->picked_text), text);
     g_free(text);
-    gtk_revealer_set_reveal_child(GTK_REVEALER(window->picked_bar), TRUE);
+    studio_window_reveal(window->picked_bar, TRUE);
 }
 
 void studio_window_pick(StudioWindow *window, double x, double y) {

@@ -50,6 +50,12 @@ static void on_show_problem(GtkButton *button, StudioWindow *window) {
 
 // ---- parts -------------------------------------------------------------------------------------
 
+// One that fades keeps its room while it is hidden.
+void studio_window_reveal(GtkWidget *revealer, bool is_shown) {
+    gtk_revealer_set_reveal_child(GTK_REVEALER(revealer), is_shown);
+    gtk_widget_set_can_target(revealer, is_shown);
+}
+
 static GtkWidget *icon_button(const char *icon, const char *action, const char *tip) {
     GtkWidget *button = gtk_button_new_from_icon_name(icon);
     gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
@@ -244,6 +250,7 @@ static GtkWidget *make_problem(StudioWindow *window) {
     gtk_box_append(GTK_BOX(box), button);
     gtk_revealer_set_child(GTK_REVEALER(window->problem), box);
     gtk_widget_set_valign(window->problem, GTK_ALIGN_END);
+    studio_window_reveal(window->problem, false);
     return window->problem;
 }
 
@@ -270,6 +277,7 @@ static GtkWidget *make_picked(StudioWindow *window) {
     gtk_revealer_set_child(GTK_REVEALER(window->picked_bar), box);
     gtk_widget_set_halign(window->picked_bar, GTK_ALIGN_CENTER);
     gtk_widget_set_valign(window->picked_bar, GTK_ALIGN_END);
+    studio_window_reveal(window->picked_bar, false);
     return window->picked_bar;
 }
 
@@ -291,6 +299,7 @@ static GtkWidget *make_busy(StudioWindow *window) {
     gtk_revealer_set_child(GTK_REVEALER(window->busy), box);
     gtk_widget_set_halign(window->busy, GTK_ALIGN_CENTER);
     gtk_widget_set_valign(window->busy, GTK_ALIGN_START);
+    studio_window_reveal(window->busy, false);
     return window->busy;
 }
 

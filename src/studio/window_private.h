@@ -107,6 +107,8 @@ void studio_window_update_problem(StudioWindow *window);
 
 // window_parts.c
 
+/// Shows or hides a bar over the picture; one that is hidden lets clicks through.
+void studio_window_reveal(GtkWidget *revealer, bool is_shown);
 GtkWidget *studio_window_make_header(StudioWindow *window);
 GtkWidget *studio_window_make_panes(StudioWindow *window);
 

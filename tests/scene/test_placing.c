@@ -112,6 +112,73 @@ static void test_stable(void) {
     forget(&more);
 }
 
+// The stands of one that has gaps are those of another without them, to the last bit.
+static void check_gaps(const char *whole, const char *with_gaps, const uint32_t *gaps,
+                       guint gap_count) {
+    Built all = build(whole, -1), some = build(with_gaps, -1);
+    g_assert_cmpuint(stands(&some), ==, stands(&all) - gap_count);
+    for (guint i = 0, k = 0, gap = 0; i < stands(&all); i++) {
+        FrStand one = *stand_at(&all, i);
+        if (gap < gap_count && one.number == gaps[gap]) {
+            gap++;
+            continue;
+        }
+        const FrStand *other = stand_at(&some, k++);
+        g_assert_true(memcmp(one.at, other->at, sizeof one.at) == 0);
+        g_assert_cmpfloat(one.turn, ==, other->turn);
+        g_assert_cmpuint(one.number, ==, other->number);
+        g_assert_cmpuint(
+            fr_plant_digest(g_array_index(all.scene->plants, FrScenePlant, one.plant).plant), ==,
+            fr_plant_digest(g_array_index(some.scene->plants, FrScenePlant, other->plant).plant));
+    }
+    forget(&all);
+    forget(&some);
+}
+
+static void test_except(void) {
+    static const uint32_t gaps[] = {2, 7}, first[] = {0};
+    check_gaps(WOOD("<strew plants='oak, elm' number='20' spacing='2'/>"),
+               WOOD("<strew plants='oak, elm' number='20' spacing='2' except=' 7 2 1000 '/>"), gaps,
+               2);
+    check_gaps(WOOD("<row plants='oak, elm' spacing='1' rows='3' scatter='1'>0,0,0 9,0,0</row>"),
+               WOOD("<row plants='oak, elm' spacing='1' rows='3' scatter='1' except='2 7 7'>0,0,0 "
+                    "9,0,0</row>"),
+               gaps, 2);
+    Built none = build(WOOD("<place plant='elm'/><strew plants='oak' number='1' except='0'/>"), -1);
+    g_assert_cmpuint(stands(&none), ==, 1);
+    g_assert_cmpuint(fr_diags_count(none.diags), ==, 0);
+    forget(&none);
+    check_gaps(WOOD("<strew plants='oak' number='2'/>"),
+               WOOD("<strew plants='oak' number='2' except='0'/>"), first, 1);
+}
+
+// What a place would say of one of a row makes that very plant there.
+static void test_found(void) {
+    Built row =
+        build(WOOD("<row plants='oak, elm' spacing='3' scale='1 ~ 0.2'>0,0,0 9,0,0</row>"), -1);
+    g_assert_cmpuint(stands(&row), ==, 4);
+    const FrStand *stand = stand_at(&row, 2);
+    FrContext context = fr_context_default();
+    FrPlace place;
+    g_assert_true(fr_scene_find_placed(row.document, stand->origin, 2, &context, &place));
+    char *text = g_strdup_printf(
+        WOOD("<place plant='%s' at='%.9g, %.9g, 0' turn='%.9g' scale='%.9g' seed='%.0f'/>"),
+        place.plant, (double)place.at.x, (double)place.at.y, place.turn * 180 / G_PI, place.scale,
+        (double)place.seed);
+    Built one = build(text, -1);
+    g_assert_cmpuint(stands(&one), ==, 1);
+    g_assert_cmpfloat_with_epsilon(stand_at(&one, 0)->at[0], stand->at[0], 1e-5);
+    g_assert_cmpfloat_with_epsilon(stand_at(&one, 0)->turn, stand->turn, 1e-6);
+    g_assert_cmpuint(
+        fr_plant_digest(g_array_index(one.scene->plants, FrScenePlant, 0).plant), ==,
+        fr_plant_digest(g_array_index(row.scene->plants, FrScenePlant, stand->plant).plant));
+    g_assert_false(fr_scene_find_placed(row.document, stand->origin, 4, &context, &place));
+    g_assert_false(fr_scene_find_placed(row.document, stand->origin + 1, 2, &context, &place));
+    g_free(text);
+    forget(&one);
+    forget(&row);
+}
+
 static void test_mix(void) {
     Built built = build(WOOD("<strew plants='oak 3, elm' number='4000' evenness='1' "
                              "individuals='2'/>"),
@@ -200,6 +267,12 @@ static void test_wrong(void) {
     assert_wrong(WOOD("<strew plants='oak 0'/>"), FR_ERR_DOCUMENT, "bad-mix");
     assert_wrong(WOOD("<strew plants='oak nan'/>"), FR_ERR_DOCUMENT, "bad-mix");
     assert_wrong(WOOD("<strew plants='oak 1 1'/>"), FR_ERR_DOCUMENT, "bad-mix");
+    assert_wrong(WOOD("<strew plants='oak' except='1 -2'/>"), FR_ERR_DOCUMENT, "bad-except");
+    assert_wrong(WOOD("<strew plants='oak' except='3.5'/>"), FR_ERR_DOCUMENT, "bad-except");
+    assert_wrong(WOOD("<strew plants='oak' except='99999999999999999999'/>"), FR_ERR_DOCUMENT,
+                 "bad-except");
+    assert_wrong(WOOD("<row plants='oak' except='1,2'>0,0,0 9,0,0</row>"), FR_ERR_DOCUMENT,
+                 "bad-except");
     assert_wrong(WOOD("<strew plants='oak' density='no.png'/>"), FR_ERR_DOCUMENT,
                  "picture-missing");
     assert_wrong(WOOD("<strew plants='oak' number='100001'/>"), FR_ERR_LIMIT, "limit-plants");
@@ -225,6 +298,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/scene/placing/a smooth row follows a curve at even distances", test_curve);
     g_test_add_func("/scene/placing/strewn plants keep away from each other", test_blue_noise);
     g_test_add_func("/scene/placing/plants stay as they are when others are added", test_stable);
+    g_test_add_func("/scene/placing/what is left out changes no other plant", test_except);
+    g_test_add_func("/scene/placing/one of a row is found as a place of its own", test_found);
     g_test_add_func("/scene/placing/a mix has its shares", test_mix);
     g_test_add_func("/scene/placing/a picture says where plants are dense", test_density);
     g_test_add_func("/scene/placing/wrong rows and areas have a place and a code", test_wrong);

@@ -83,6 +83,16 @@ GROVE = """<frond version="1">
 """
 
 
+ROWS = """<frond version="1">
+  <plant id="tree"><pgraph><horn id="h" length="2 ~ 0.5" radius="0.05"/></pgraph></plant>
+  <scene>
+    <row plants="tree" spacing="2" turn="0">-4,0,0 4,0,0</row>
+    <strew plants="tree" number="30" at="0, 8, 0" width="10" depth="6"/>
+  </scene>
+</frond>
+"""
+
+
 class Run:
     """One studio for all tests, as a person has one."""
 
@@ -205,6 +215,44 @@ def test_arrange(run):
     studio.undo_all()
     studio.wait()
     assert studio.text(run.home) == GROVE
+
+
+def test_rows(run):
+    """a plant of a row is taken out and moved, another left out, others brushed out of an area"""
+    studio = run.studio
+    rows = os.path.join(run.home, "rows.frond")
+    with open(rows, "w", encoding="utf-8") as file:
+        file.write(ROWS)
+    studio.ask(f"open {rows}")
+    studio.wait()
+    studio.ask("turn 0 20 1.5")
+    studio.ask("do scene-tool::move")
+    studio.wait()
+    studio.click(studio.point(2, 0, 0.8))
+    studio.wait()
+    run.picture("rows-one")
+    studio.click(studio.middle("take-one"))
+    studio.wait()
+    state = studio.state()
+    assert state["steps"] == 1 and state["selected"] == "frond/scene/place", state
+    assert ' except="3"' in studio.text(run.home)
+    studio.drag(studio.point(2, 0, 0), studio.point(2.5, -1.5, 0))
+    studio.wait()
+    assert '<place plant="tree" at="2.5, -1.5, 0"' in studio.text(run.home), studio.text(run.home)
+    studio.click(studio.point(-2, 0, 0.8))
+    studio.wait()
+    studio.pointer("key", "shift+Delete")
+    studio.wait()
+    assert ' except="3 1"' in studio.text(run.home)
+    studio.ask("do scene-tool::take-out")
+    studio.drag(studio.point(-3, 8, 0), studio.point(3, 8, 0))
+    studio.wait()
+    assert studio.text(run.home).count("except=") == 2 and studio.state()["steps"] == 4
+    run.picture("rows-brushed")
+    studio.ask("do scene-tool::select")
+    studio.undo_all()
+    studio.wait()
+    assert studio.text(run.home) == ROWS
 
 
 def test_flower(run):
@@ -642,7 +690,8 @@ def test_killed(run):
     assert run.studio.quit() == 0
 
 
-TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_light, test_lamps, test_sketch,
+TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_rows,
+         test_light, test_lamps, test_sketch,
          test_device, test_flower, test_link, test_preset, test_slider, test_keys, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 

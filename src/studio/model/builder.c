@@ -215,7 +215,7 @@ static void hand_ground(StudioBuilder *builder, StudioGround *ground) {
     GArray *stands = g_array_new(FALSE, FALSE, sizeof(StudioStand));
     for (uint32_t i = 0; i < fr_scene_stand_count(builder->scene); i++) {
         const FrStand *from = &g_array_index(builder->scene->stands, FrStand, i);
-        StudioStand stand = {{from->at[0], from->at[1], from->at[2]}, from->origin};
+        StudioStand stand = {{from->at[0], from->at[1], from->at[2]}, from->origin, from->number};
         g_array_append_val(stands, stand);
     }
     g_mutex_lock(&builder->lock);

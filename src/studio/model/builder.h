@@ -116,7 +116,7 @@ void studio_builder_use(StudioBuilder *builder, StudioUse use, void *user);
 /// A plant that stands somewhere, of the last build.
 typedef struct StudioStand {
     double at[3];
-    uint32_t origin; ///< as FrStand.origin
+    uint32_t origin, number; ///< as of FrStand
 } StudioStand;
 
 /// What a ray meets first; while a build runs, of the ground alone.

@@ -105,6 +105,7 @@ static void follow_pick(const StudioGround *ground, const FrScene *scene, const 
     if (pick->stand < fr_scene_stand_count(scene)) {
         hit->kind = STUDIO_HIT_PLANT;
         hit->origin = stand->origin;
+        hit->number = stand->number;
         for (int k = 0; k < 3; k++) {
             hit->foot[k] = stand->at[k];
         }

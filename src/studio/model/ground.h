@@ -19,6 +19,7 @@ typedef struct StudioHit {
     double at[3];    ///< where the ray meets it
     double foot[3];  ///< of a plant where it stands; else as `at`
     uint32_t origin; ///< byte of the document where the element begins that it belongs to; 0: none
+    uint32_t number; ///< of a plant: which of a row or an area it is
 } StudioHit;
 
 /// The ground of a document and its visible obstacles. The document need not outlive it. Immutable;

@@ -54,6 +54,26 @@ static bool is_same_place(const FrPlace *a, const FrPlace *b) {
     return g_strcmp0(a->plant, b->plant) == 0 && glms_vec3_eqv(a->at, b->at) && a->seed == b->seed;
 }
 
+static bool is_same_gaps(const GArray *a, const GArray *b) {
+    return a->len == b->len && memcmp(a->data, b->data, a->len * sizeof(uint32_t)) == 0;
+}
+
+// Whether another document has all rows and areas of one, with the same plants left out.
+static bool keeps_spread(const FrDocument *document, const FrDocument *next) {
+    const GPtrArray *rows = fr_document_rows(document), *new_rows = fr_document_rows(next);
+    const GPtrArray *areas = fr_document_strews(document), *new_areas = fr_document_strews(next);
+    bool is_kept = rows->len <= new_rows->len && areas->len <= new_areas->len;
+    for (guint i = 0; is_kept && i < rows->len; i++) {
+        const FrRow *row = g_ptr_array_index(rows, i), *new = g_ptr_array_index(new_rows, i);
+        is_kept = is_same_gaps(row->gaps, new->gaps);
+    }
+    for (guint i = 0; is_kept && i < areas->len; i++) {
+        const FrStrew *area = g_ptr_array_index(areas, i), *new = g_ptr_array_index(new_areas, i);
+        is_kept = is_same_gaps(area->gaps, new->gaps);
+    }
+    return is_kept;
+}
+
 // Whether all that a document places by hand is still placed by another one, in the same order,
 // perhaps among more: a plant that has been taken out or moved has never grown where it was.
 static bool keeps_places(const FrDocument *document, const FrDocument *next) {
@@ -62,8 +82,7 @@ static bool keeps_places(const FrDocument *document, const FrDocument *next) {
     for (guint i = 0; i < new->len &&kept < old->len; i++) {
         kept += is_same_place(g_ptr_array_index(old, kept), g_ptr_array_index(new, i));
     }
-    return kept == old->len && fr_document_rows(document)->len <= fr_document_rows(next)->len &&
-           fr_document_strews(document)->len <= fr_document_strews(next)->len;
+    return kept == old->len && keeps_spread(document, next);
 }
 
 // Lets what has grown go on by another text; false if it cannot.

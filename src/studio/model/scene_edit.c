@@ -105,6 +105,13 @@ static void append_place(GString *xml, const char *plant, const StudioSpot *spot
     g_free(at);
 }
 
+char *studio_place_xml(const StudioDocument *document, const char *plant, const StudioSpot *spot) {
+    uint32_t element = fr_contents_find(contents_of(document), 0, plant);
+    GString *xml = g_string_new(NULL);
+    append_place(xml, plant, spot, studio_scene_is_species(document, element));
+    return g_string_free(xml, FALSE);
+}
+
 // The place of what is shown because nothing is placed.
 static void append_first(const StudioDocument *document, GString *xml) {
     static const StudioSpot origin = {{0, 0, 0}, 0, 1, -1};

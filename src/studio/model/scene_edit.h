@@ -25,6 +25,8 @@ bool studio_scene_has_places(const StudioDocument *document);
 /// Whether a plant (its element) grows bud by bud: it has no size and turn of its own.
 bool studio_scene_is_species(const StudioDocument *document, uint32_t plant);
 
+/// A `<place>` of a plant (its id). Free with g_free().
+char *studio_place_xml(const StudioDocument *document, const char *plant, const StudioSpot *spot);
 /// Plants a plant (its id) at spots. What was shown at the origin because nothing was placed is
 /// placed there, so that it stays.
 bool studio_plant(StudioDocument *document, const char *plant, const StudioSpot *spots,
