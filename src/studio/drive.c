@@ -110,9 +110,16 @@ static void where(Drive *drive, char *const *words, const char *name) {
         }
     }
     double x, y, shift_x, shift_y;
-    if (is_there && gtk_widget_translate_coordinates(from, GTK_WIDGET(window), box.origin.x,
-                                                     box.origin.y, &x, &y)) {
-        gtk_native_get_surface_transform(GTK_NATIVE(window), &shift_x, &shift_y);
+    GtkNative *native = from == NULL ? NULL : gtk_widget_get_native(from);
+    if (is_there && native != NULL &&
+        gtk_widget_translate_coordinates(from, GTK_WIDGET(native), box.origin.x, box.origin.y, &x,
+                                         &y)) {
+        gtk_native_get_surface_transform(native, &shift_x, &shift_y);
+        if (GTK_IS_POPOVER(native)) { // a surface of its own
+            GdkPopup *popup = GDK_POPUP(gtk_native_get_surface(native));
+            shift_x += gdk_popup_get_position_x(popup);
+            shift_y += gdk_popup_get_position_y(popup);
+        }
         answer("%.0f %.0f %.0f %.0f", x + shift_x, y + shift_y, (double)box.size.width,
                (double)box.size.height);
     } else {

@@ -1,30 +1,20 @@
-#include "studio/inspector.h"
+#include "studio/inspector_private.h"
 
 #include "studio/accessible.h"
 #include "studio/model/commands.h"
 #include "studio/model/keys.h"
+#include "studio/model/materials.h"
 #include "studio/model/place.h"
-#include "studio/param_row.h"
 
 #include <adwaita.h>
 #include <math.h>
 #include <string.h>
 
-struct _StudioInspector {
-    GtkBox parent;
-    StudioDocument *document; // borrowed
-    char *place;              // of the element; NULL: none
-    double time;              // of the clock; NAN: as the document says
-    const FrParamTable *table;
-    GPtrArray *rows; // StudioParamRow *, borrowed from the sections
-    GtkWidget *stack, *id, *kind, *meaning, *search, *given, *sections, *scrolled;
-};
-
 static guint followed;
 
 G_DEFINE_TYPE(StudioInspector, studio_inspector, GTK_TYPE_BOX)
 
-static uint32_t element_of(StudioInspector *inspector) {
+uint32_t studio_inspector_element(StudioInspector *inspector) {
     return inspector->document == NULL
                ? FR_NONE
                : studio_place_find(studio_document_contents(inspector->document), inspector->place);
@@ -34,7 +24,7 @@ static uint32_t element_of(StudioInspector *inspector) {
 
 static void on_set(StudioParamRow *row, const char *value, gboolean is_drag,
                    StudioInspector *inspector) {
-    uint32_t element = element_of(inspector);
+    uint32_t element = studio_inspector_element(inspector);
     if (element != FR_NONE) {
         studio_set(inspector->document, element, studio_param_row_attribute(row), value, is_drag);
     }
@@ -53,7 +43,7 @@ static double age_of(StudioInspector *inspector, uint32_t element) {
 
 static void on_key(StudioParamRow *row, double value, gboolean is_drag,
                    StudioInspector *inspector) {
-    uint32_t element = element_of(inspector);
+    uint32_t element = studio_inspector_element(inspector);
     if (element != FR_NONE) {
         studio_set_key(inspector->document, element, studio_param_row_attribute(row),
                        age_of(inspector, element), value, is_drag);
@@ -61,7 +51,7 @@ static void on_key(StudioParamRow *row, double value, gboolean is_drag,
 }
 
 static void on_unkey(StudioParamRow *row, StudioInspector *inspector) {
-    uint32_t element = element_of(inspector);
+    uint32_t element = studio_inspector_element(inspector);
     if (element != FR_NONE) {
         studio_remove_key(inspector->document, element, studio_param_row_attribute(row),
                           age_of(inspector, element));
@@ -73,16 +63,20 @@ static void on_sealed(StudioParamRow *row, StudioInspector *inspector) {
     studio_document_seal(inspector->document);
 }
 
-static void on_follow(StudioParamRow *row, const char *id, StudioInspector *inspector) {
-    (void)row;
+void studio_inspector_follow(StudioInspector *inspector, const char *id) {
     uint32_t element = fr_contents_find(studio_document_contents(inspector->document), 0, id);
     if (element != FR_NONE) {
         g_signal_emit(inspector, followed, 0, element);
     }
 }
 
+static void on_follow(StudioParamRow *row, const char *id, StudioInspector *inspector) {
+    (void)row;
+    studio_inspector_follow(inspector, id);
+}
+
 static void on_renamed(GtkEntry *entry, StudioInspector *inspector) {
-    uint32_t element = element_of(inspector);
+    uint32_t element = studio_inspector_element(inspector);
     if (element == FR_NONE) {
         return;
     }
@@ -90,6 +84,16 @@ static void on_renamed(GtkEntry *entry, StudioInspector *inspector) {
     const FrContentsElement *at = fr_contents_at(contents, element);
     uint32_t plant = studio_place_plant(contents, element);
     char *to = g_strdup(gtk_editable_get_text(GTK_EDITABLE(entry)));
+    bool is_material = at->table == fr_material_table();
+    if (is_material && g_strcmp0(at->id, to) != 0) {
+        if (studio_rename_material(inspector->document, element, to)) {
+            g_signal_emit(inspector, followed, 0, element);
+        } else {
+            gtk_editable_set_text(GTK_EDITABLE(entry), at->id == NULL ? "" : at->id);
+        }
+        g_free(to);
+        return;
+    }
     bool is_renamed = at->component >= 0 && plant != FR_NONE && at->id != NULL &&
                       strcmp(at->id, to) != 0 &&
                       studio_rename_component(inspector->document, plant, at->id, to);
@@ -142,11 +146,22 @@ static void add_row(StudioInspector *inspector, GtkWidget *section, const FrPara
     g_signal_connect(row, "key", G_CALLBACK(on_key), inspector);
     g_signal_connect(row, "unkey", G_CALLBACK(on_unkey), inspector);
     gtk_box_append(GTK_BOX(section), row);
+    studio_inspector_put_picker(inspector, STUDIO_PARAM_ROW(row));
     g_ptr_array_add(inspector->rows, row);
 }
 
+// Those of a table from `begin` to before `end` that name a material, or that name none.
+static void add_rows(StudioInspector *inspector, GtkWidget *section, size_t begin, size_t end,
+                     bool names_material) {
+    for (size_t i = begin; i < end; i++) {
+        if (studio_names_material(&inspector->table->rows[i]) == names_material) {
+            add_row(inspector, section, &inspector->table->rows[i]);
+        }
+    }
+}
+
 // Rows that a component shares with all others come first in its table: they end with those of a
-// Camera, which has no others. Its own stand above them here.
+// Camera, which has no others. Its own stand above them here, and its materials above those.
 static size_t count_shared(const FrParamTable *table) {
     const FrParamTable *least = fr_pgraph_table(FR_COMPONENT_CAMERA);
     size_t count = 0;
@@ -178,19 +193,18 @@ static void fill(StudioInspector *inspector, const FrContentsElement *element) {
     size_t life = is_component ? MIN(first_of_life(table), shared) : 0;
     if (table->count > shared) {
         GtkWidget *own = add_section(inspector, is_component ? "Form" : "Settings", true);
-        for (size_t i = shared; i < table->count; i++) {
-            add_row(inspector, own, &table->rows[i]);
-        }
+        add_rows(inspector, own, 0, life, true);
+        add_rows(inspector, own, shared, table->count, true);
+        add_rows(inspector, own, shared, table->count, false);
     }
     if (shared > 0) {
         GtkWidget *place = add_section(inspector, "Place and size", table->count == shared);
-        for (size_t i = 0; i < life; i++) {
-            add_row(inspector, place, &table->rows[i]);
+        add_rows(inspector, place, 0, life, false);
+        if (table->count == shared) {
+            add_rows(inspector, place, 0, life, true);
         }
         GtkWidget *time = add_section(inspector, "Life", false);
-        for (size_t i = life; i < shared; i++) {
-            add_row(inspector, time, &table->rows[i]);
-        }
+        add_rows(inspector, time, life, shared, false);
     }
 }
 
@@ -212,13 +226,15 @@ static void show_values(StudioInspector *inspector, uint32_t element) {
         g_free(value);
     }
     g_free(kind);
+    studio_inspector_show_looks(inspector);
 }
 
 static void show_heading(StudioInspector *inspector, const FrContentsElement *element) {
     bool is_component = element->component >= 0;
     gtk_editable_set_text(GTK_EDITABLE(inspector->id), element->id != NULL ? element->id : "");
-    gtk_editable_set_editable(GTK_EDITABLE(inspector->id), is_component);
-    gtk_widget_set_can_focus(inspector->id, is_component);
+    bool is_named = is_component || element->table == fr_material_table();
+    gtk_editable_set_editable(GTK_EDITABLE(inspector->id), is_named);
+    gtk_widget_set_can_focus(inspector->id, is_named);
     gtk_widget_set_visible(inspector->id, element->id != NULL);
     char *kind = g_strdup(element->name);
     kind[0] = g_ascii_toupper(kind[0]);
@@ -265,7 +281,7 @@ void studio_inspector_show(StudioInspector *inspector, StudioDocument *document,
 
 void studio_inspector_set_time(StudioInspector *inspector, double time) {
     inspector->time = time;
-    uint32_t element = element_of(inspector);
+    uint32_t element = studio_inspector_element(inspector);
     if (element != FR_NONE) {
         show_values(inspector, element);
     }
@@ -274,7 +290,7 @@ void studio_inspector_set_time(StudioInspector *inspector, double time) {
 // ---- what is wrong -----------------------------------------------------------------------------
 
 void studio_inspector_set_diags(StudioInspector *inspector, const FrDiags *diags) {
-    uint32_t element = element_of(inspector);
+    uint32_t element = studio_inspector_element(inspector);
     if (element == FR_NONE) {
         return;
     }
@@ -343,6 +359,12 @@ static GtkWidget *make_heading(StudioInspector *inspector) {
     gtk_box_append(GTK_BOX(tools), inspector->given);
     gtk_box_append(GTK_BOX(box), line);
     gtk_box_append(GTK_BOX(box), inspector->meaning);
+    inspector->look = gtk_image_new();
+    gtk_image_set_pixel_size(GTK_IMAGE(inspector->look), STUDIO_LOOK_SIZE);
+    gtk_widget_set_halign(inspector->look, GTK_ALIGN_CENTER);
+    gtk_widget_set_name(inspector->look, "look");
+    studio_name(inspector->look, "How the material looks");
+    gtk_box_append(GTK_BOX(box), inspector->look);
     gtk_box_append(GTK_BOX(box), tools);
     return box;
 }
@@ -361,6 +383,7 @@ static void studio_inspector_finalize(GObject *object) {
     StudioInspector *inspector = STUDIO_INSPECTOR(object);
     g_ptr_array_unref(inspector->rows);
     g_free(inspector->place);
+    studio_swatches_free(inspector->swatches);
     G_OBJECT_CLASS(studio_inspector_parent_class)->finalize(object);
 }
 
@@ -373,6 +396,7 @@ static void studio_inspector_class_init(StudioInspectorClass *class) {
 static void studio_inspector_init(StudioInspector *inspector) {
     inspector->rows = g_ptr_array_new();
     inspector->time = NAN;
+    inspector->swatches = studio_swatches_new(studio_inspector_show_looks, inspector);
     inspector->stack = gtk_stack_new();
     gtk_widget_set_hexpand(inspector->stack, TRUE);
     inspector->sections = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "frond/pgraph.h"
-#include "studio/model/document.h"
+#include "studio/swatches.h"
 
 #include <gtk/gtk.h>
 
@@ -17,6 +17,8 @@ void studio_inspector_show(StudioInspector *inspector, StudioDocument *document,
                            const FrDiags *diags);
 /// What the clock of the plants shows, in years; NAN: as the document says.
 void studio_inspector_set_time(StudioInspector *inspector, double time);
+/// How materials look there; pictures are handed to it.
+StudioSwatches *studio_inspector_swatches(StudioInspector *inspector);
 /// Marks what is wrong.
 void studio_inspector_set_diags(StudioInspector *inspector, const FrDiags *diags);
 /// Brings the row of an attribute into view and gives it the keyboard.

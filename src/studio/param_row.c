@@ -3,6 +3,7 @@
 #include "studio/accessible.h"
 #include "studio/curve_box.h"
 #include "studio/model/keys.h"
+#include "studio/model/materials.h"
 #include "studio/model/values.h"
 
 #include <math.h>
@@ -210,23 +211,7 @@ static void make_scale(StudioParamRow *row) {
 }
 
 static bool names_something(const FrParam *param) {
-    return param->kind == FR_PARAM_CURVE ||
-           (param->kind == FR_PARAM_TEXT && g_str_has_suffix(param->name, "material"));
-}
-
-static void make_tip(StudioParamRow *row) {
-    const FrParam *param = row->param;
-    GString *tip = g_string_new(param->meaning);
-    bool has_range = param->max > param->min;
-    if (has_range) {
-        g_string_append_printf(tip, "\n%g to %g %s", param->min, param->max, param->unit);
-    }
-    if (*param->default_text != '\0') {
-        g_string_append_printf(tip, "%s%s unless given", has_range ? ", " : "\n",
-                               param->default_text);
-    }
-    gtk_widget_set_tooltip_text(GTK_WIDGET(row), tip->str);
-    g_string_free(tip, TRUE);
+    return param->kind == FR_PARAM_CURVE || studio_names_material(param);
 }
 
 // The name, and buttons for what is done to the value.
@@ -310,7 +295,9 @@ static void fill(StudioParamRow *row) {
     gtk_label_set_xalign(GTK_LABEL(unit), 0);
     gtk_box_append(GTK_BOX(line), unit);
     make_below(row, title);
-    make_tip(row);
+    char *tip = studio_value_tip(row->param);
+    gtk_widget_set_tooltip_text(GTK_WIDGET(row), tip);
+    g_free(tip);
     g_free(title);
 }
 
@@ -445,10 +432,19 @@ void studio_param_row_mark(StudioParamRow *row, const char *message, int begin, 
     pango_attr_list_unref(list);
 }
 
+void studio_param_row_put(StudioParamRow *row, GtkWidget *widget) {
+    GtkWidget *line = gtk_widget_get_first_child(GTK_WIDGET(row));
+    gtk_box_insert_child_after(GTK_BOX(line), widget, row->name);
+}
+
 // ---- asking ------------------------------------------------------------------------------------
 
 const FrParam *studio_param_row_param(StudioParamRow *row) {
     return row->param;
+}
+
+const char *studio_param_row_value(StudioParamRow *row) {
+    return row->value;
 }
 
 const char *studio_param_row_attribute(StudioParamRow *row) {

@@ -24,6 +24,10 @@ const char *studio_param_row_attribute(StudioParamRow *row);
 void studio_param_row_show(StudioParamRow *row, const char *value);
 /// The age that key frames are set at, in years; NAN: there are none.
 void studio_param_row_set_age(StudioParamRow *row, double age);
+/// Puts a widget beside the value.
+void studio_param_row_put(StudioParamRow *row, GtkWidget *widget);
+/// What the document gives, borrowed; NULL: nothing.
+const char *studio_param_row_value(StudioParamRow *row);
 /// How the points of a curve are joined (FrCurveKind).
 void studio_param_row_set_curve_kind(StudioParamRow *row, int kind);
 /// Underlines bytes [begin, end) of the value, with what is wrong; NULL: nothing.

@@ -304,6 +304,9 @@ static void studio_window_dispose(GObject *object) {
     }
     g_clear_handle_id(&window->autosave, g_source_remove);
     g_clear_handle_id(&window->progress, g_source_remove);
+    if (window->builder != NULL) {
+        studio_swatches_set_builder(studio_inspector_swatches(window->inspector), NULL);
+    }
     g_clear_pointer(&window->builder, studio_builder_free);
     while (g_idle_remove_by_data(window)) {
     }

@@ -80,6 +80,7 @@ void studio_window_collect(StudioWindow *window) {
     StudioPicture picture;
     while (studio_builder_take_picture(window->builder, &picture)) {
         studio_viewport_add_picture(window->viewport, &picture);
+        studio_swatches_add(studio_inspector_swatches(window->inspector), &picture);
         fr_image_unref(picture.image);
     }
     studio_light_mode_collect(window->light);
@@ -122,6 +123,7 @@ void studio_window_start_builder(StudioWindow *window) {
     if (window->builder == NULL) {
         window->builder = studio_builder_new(studio_window_wake, window);
         studio_light_mode_watch(window->light);
+        studio_swatches_set_builder(studio_inspector_swatches(window->inspector), window->builder);
     }
     studio_builder_forget(window->builder);
     window->asked = window->shown = 0;

@@ -335,6 +335,49 @@ def test_slider(run):
     run.picture("flower-slider")
 
 
+def popped_up(studio, button, name):
+    """Where something is that a button lets pop up."""
+    for _ in range(20):
+        studio.click(studio.middle(button))
+        time.sleep(0.4)
+        try:
+            return studio.middle(name)
+        except AssertionError:
+            continue  # the last one was just going away
+    raise AssertionError(f"{button} shows no {name}")
+
+
+def test_material(run):
+    """a material is chosen by its look, copied, named, and given a picture that is missed"""
+    studio = run.studio
+    before = studio.state()
+    studio.ask("do select::stem")
+    studio.wait()
+    studio.click(popped_up(studio, "material-picker", "material:green"))
+    studio.wait()
+    stem = studio.text(run.home).split('id="stem"')[1].split("/>")[0]
+    assert 'material="green"' in stem, stem
+    studio.click(popped_up(studio, "material-picker", "material-copy"))
+    studio.wait()
+    state = studio.state()
+    assert state["selected"].endswith("green2") and state["steps"] == before["steps"] + 2, state
+    run.picture("flower-material")
+    studio.click(studio.middle("element-id"))
+    studio.pointer("key", "ctrl+a")
+    studio.pointer("type", "rind")
+    studio.pointer("key", "Return")
+    studio.wait()
+    assert 'material="rind"' in studio.text(run.home) and studio.state()["problems"] == 0
+    studio.ask("do set::rind.picture=no-such.png")
+    studio.wait()
+    assert studio.state()["problems"] == 1, "a picture that is not there is not missed"
+    run.picture("flower-missing")
+    for _ in range(4):
+        studio.ask("do undo")
+    studio.wait()
+    assert studio.state()["digest"] == before["digest"]
+
+
 def test_curve(run):
     """a curve is drawn by its points"""
     studio = run.studio
@@ -690,9 +733,10 @@ def test_killed(run):
     assert run.studio.quit() == 0
 
 
+
 TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_rows,
          test_light, test_lamps, test_sketch,
-         test_device, test_flower, test_link, test_preset, test_slider, test_keys, test_curve, test_view, test_hand,
+         test_device, test_flower, test_link, test_preset, test_slider, test_material, test_keys, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
 

@@ -464,6 +464,11 @@ bool studio_builder_take_picture(StudioBuilder *builder, StudioPicture *picture)
     return studio_painter_take(builder->painter, picture);
 }
 
+void studio_builder_paint(StudioBuilder *builder, FrMaterial *material) {
+    studio_painter_add(builder->painter, material,
+                       studio_look_digest(fr_material_params(material)));
+}
+
 bool studio_builder_is_painting(StudioBuilder *builder) {
     return studio_painter_is_busy(builder->painter);
 }

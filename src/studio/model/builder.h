@@ -98,6 +98,8 @@ const StudioBuilt *studio_builder_collect(StudioBuilder *builder);
 void studio_builder_release(StudioBuilder *builder);
 /// The next picture; free `image`. False: none is ready.
 bool studio_builder_take_picture(StudioBuilder *builder, StudioPicture *picture);
+/// Asks for the pictures of a material that no plant need have.
+void studio_builder_paint(StudioBuilder *builder, FrMaterial *material);
 /// Whether pictures are still being made.
 bool studio_builder_is_painting(StudioBuilder *builder);
 /// What of the last view a ray meets first, as in fr_scene_pick(). False: nothing, or the view is

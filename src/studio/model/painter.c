@@ -10,7 +10,8 @@ struct StudioPainter {
     void *user;
     GThread *thread;
     GAsyncQueue *orders, *ready; // Order *, StudioPicture *
-    GHashTable *known;           // digests; of whoever adds
+    GMutex lock;                 // of `known`
+    GHashTable *known;           // digests
     FrProgress *progress;
     gint open; // atomic: orders that are not ready
 };
@@ -55,6 +56,7 @@ StudioPainter *studio_painter_new(StudioWake wake, void *user) {
     painter->user = user;
     painter->orders = g_async_queue_new();
     painter->ready = g_async_queue_new();
+    g_mutex_init(&painter->lock);
     painter->known = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
     painter->progress = fr_progress_new(NULL, NULL);
     painter->thread = g_thread_new("painter", run, painter);
@@ -72,16 +74,19 @@ void studio_painter_free(StudioPainter *painter) {
     g_async_queue_unref(painter->orders);
     g_async_queue_unref(painter->ready);
     g_hash_table_unref(painter->known);
+    g_mutex_clear(&painter->lock);
     fr_progress_free(painter->progress);
     g_free(painter);
 }
 
 void studio_painter_add(StudioPainter *painter, FrMaterial *material, FrDigest digest) {
     gint64 key = (gint64)digest;
-    if (g_hash_table_contains(painter->known, &key)) {
+    g_mutex_lock(&painter->lock);
+    bool is_new = g_hash_table_add(painter->known, g_memdup2(&key, sizeof key));
+    g_mutex_unlock(&painter->lock);
+    if (!is_new) {
         return;
     }
-    g_hash_table_add(painter->known, g_memdup2(&key, sizeof key));
     Order *order = g_new(Order, 1);
     *order = (Order){fr_material_ref(material), digest};
     g_atomic_int_inc(&painter->open);

@@ -67,6 +67,19 @@ static double power_above(double value) {
                                 : 10 * power;
 }
 
+char *studio_value_tip(const FrParam *param) {
+    GString *tip = g_string_new(param->meaning);
+    bool has_range = param->max > param->min;
+    if (has_range) {
+        g_string_append_printf(tip, "\n%g to %g %s", param->min, param->max, param->unit);
+    }
+    if (*param->default_text != '\0') {
+        g_string_append_printf(tip, "%s%s unless given", has_range ? ", " : "\n",
+                               param->default_text);
+    }
+    return g_string_free(tip, FALSE);
+}
+
 void studio_value_range(const FrParam *param, double value, double *min, double *max) {
     static const double handy = 400;
     double usual = 0;

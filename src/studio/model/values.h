@@ -14,6 +14,8 @@ char *studio_vector_text(const double at[3], double span);
 char *studio_count_text(uint64_t count);
 /// The same with what is counted: "1 leaf", "12 leaves". Free with g_free().
 char *studio_count_words(uint64_t count, const char *one, const char *many);
+/// What it means, its range and its default. Free with g_free().
+char *studio_value_tip(const FrParam *param);
 /// What a slider runs over: the hard range where that is of a handy size, else some range about the
 /// value and the default.
 void studio_value_range(const FrParam *param, double value, double *min, double *max);

@@ -109,11 +109,19 @@ static FrMesh *shape_at(const FrPlant *plant, uint32_t shape, int64_t lod,
 
 // ---- looks -------------------------------------------------------------------------------------
 
-FrDigest studio_look_digest(const FrMaterial *material, const char *folder) {
+FrDigest studio_look_digest(const FrMaterialParams *params) {
+    static const char *const others[] = {"roughness", "translucency", "mirror",
+                                         "clear",     "alpha_cutoff", "relief"};
     const FrParamTable *table = fr_material_table();
-    FrDigest digest = fr_digest(0, folder, strlen(folder));
+    FrDigest digest = 0;
     for (size_t i = 0; i < table->count; i++) {
-        digest = fr_param_digest(digest, &table->rows[i], fr_material_params(material));
+        bool is_other = false;
+        for (size_t k = 0; k < G_N_ELEMENTS(others); k++) {
+            is_other = is_other || strcmp(table->rows[i].name, others[k]) == 0;
+        }
+        if (!is_other) {
+            digest = fr_param_digest(digest, &table->rows[i], params);
+        }
     }
     return digest;
 }
@@ -140,7 +148,7 @@ static StudioLook look_of(FrMaterial *material) {
     vec3s colour = tint_of(material), over = fr_material_tint(material);
     return (StudioLook){
         .material = fr_material_ref(material),
-        .digest = studio_look_digest(material, ""),
+        .digest = studio_look_digest(params),
         .tint = {linear(colour.x), linear(colour.y), linear(colour.z)},
         .picture_tint = {linear(over.x), linear(over.y), linear(over.z)},
         .alpha_cutoff = (float)params->alpha_cutoff,

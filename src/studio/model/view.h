@@ -68,4 +68,4 @@ StudioView *studio_view_of(const FrScene *scene, const FrSkin *const *skins,
 void studio_view_add_coarse(StudioView *view, const FrContext *context);
 void studio_view_free(StudioView *view);
 /// The digest of all that a material's pictures depend on.
-FrDigest studio_look_digest(const FrMaterial *material, const char *folder);
+FrDigest studio_look_digest(const FrMaterialParams *params);
