@@ -110,7 +110,8 @@ typedef struct FrGrowthStats {
 typedef struct FrGrowth FrGrowth;
 
 /// What fr_growth_new() and fr_growth_add_seeds() would find wrong, as far as it is known without
-/// standing the obstacles and strewing particles.
+/// cutting the obstacles into cells and strewing particles: a seed that an obstacle only touches is
+/// not told.
 FR_API FR_MUST_USE FrStatus fr_growth_check(const FrGrowthSetup *setup, const FrSeed *seeds,
                                             uint32_t count, const FrContext *context);
 /// An empty world. FR_ERR_LIMIT if it would take too much memory; then *growth is NULL.

@@ -20,3 +20,14 @@ typedef void (*FrCellRunFn)(void *data, int64_t first, int64_t last, int64_t y, 
 /// has no say as long as they turn alike. Cost: triangles and rows they are seen in along x.
 FR_API void fr_solid_cells(const vec3s *positions, const uint32_t *indices, uint32_t index_count,
                            const FrCellGrid *grid, FrCellRunFn run, void *data);
+
+/// A place in double precision.
+typedef struct FrPoint3 {
+    double at[3];
+} FrPoint3;
+
+/// Sets is_held[i] where the surface winds around points[i]; leaves the others as they are. Rows
+/// and turns as for cells. Cost: the points in the surface's box, sorted, and triangles times the
+/// points whose y they span.
+FR_API void fr_solid_holds(const vec3s *positions, const uint32_t *indices, uint32_t index_count,
+                           const FrPoint3 *points, uint32_t count, bool *is_held);

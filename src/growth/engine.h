@@ -266,6 +266,24 @@ FrHabit fr_species_habit(int model);
 FrReadySpecies fr_species_make_ready(const FrSpecies *species);
 void fr_species_clear_ready(FrReadySpecies *ready);
 
+// ---- seeds.c ----------------------------------------------------------------------------------
+/// Seeds that stand wrong.
+typedef struct FrMisplaced {
+    uint32_t count;
+    const FrSeed *first;
+} FrMisplaced;
+bool fr_seed_is_in_arena(const FrGrowthParams *params, const FrSeed *seed);
+/// True unless plants stand beside their envelope: a trunk that begins below it grows into it.
+bool fr_species_comes_within(const FrGrowthParams *params, const FrReadySpecies *species, vec3s up);
+void fr_misplaced_note(FrMisplaced *misplaced, const FrSeed *seed);
+void fr_misplaced_tell_left_out(const FrMisplaced *left_out, uint32_t count, bool is_all,
+                                const FrContext *context);
+void fr_misplaced_tell_outside(const FrMisplaced *outside, uint32_t count,
+                               const FrContext *context);
+/// Tells which seeds of a world that is yet to be made stand wrong.
+void fr_seeds_check(const FrGrowthSetup *setup, vec3s up, const FrSeed *seeds, uint32_t count,
+                    const FrContext *context);
+
 // ---- plant_store.c ----------------------------------------------------------------------------
 uint32_t fr_grown_add_node(FrGrownPlant *plant, uint32_t parent, uint32_t axis, vec3s at);
 uint32_t fr_grown_add_axis(FrGrownPlant *plant, uint32_t bearer, uint8_t row, FrKey key);

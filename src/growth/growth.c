@@ -254,19 +254,10 @@ static void begin_plant(FrGrowth *growth, FrGrownPlant *plant) {
     bud->state = FR_LIVE_GROWING;
 }
 
-static bool is_in_arena(const FrGrowthParams *params, const FrSeed *seed) {
-    for (int axis = 0; axis < 3; axis++) {
-        if (!(seed->at[axis] >= (double)params->min.raw[axis] &&
-              seed->at[axis] <= (double)params->max.raw[axis])) {
-            return false;
-        }
-    }
-    return true;
-}
-
 static bool has_place(const FrGrowth *growth, const FrSeed *seed) {
     FrCell cell;
-    return is_in_arena(&growth->params, seed) && fr_voxels_cell(growth->voxels, seed->at, &cell) &&
+    return fr_seed_is_in_arena(&growth->params, seed) &&
+           fr_voxels_cell(growth->voxels, seed->at, &cell) &&
            fr_voxels_owner(growth->voxels, cell) != FR_VOXEL_SOLID;
 }
 
@@ -275,71 +266,16 @@ static FrStatus check_plants(uint64_t count, const FrContext *context) {
                           context->diags);
 }
 
-static void tell_left_out(const FrSeed *missing, uint32_t left_out, uint32_t count, bool is_all,
-                          const FrContext *context) {
-    if (left_out > 0) {
-        fr_diags_add(
-            context->diags, FR_WARNING, "seed-place", missing->span,
-            "%u of %u seeds have no place to stand, the first of them at %g,%g,%g: outside "
-            "the arena or in an obstacle%s",
-            left_out, count, missing->at[0], missing->at[1], missing->at[2],
-            is_all ? "; nothing grows" : "");
-    }
-}
-
 FrStatus fr_growth_check(const FrGrowthSetup *setup, const FrSeed *seeds, uint32_t count,
                          const FrContext *context) {
     FrStatus status = check_setup(setup, cell_of(setup), context);
     if (status == FR_OK) {
         status = check_plants(count, context);
     }
-    const FrSeed *missing = NULL;
-    uint32_t left_out = 0;
-    for (uint32_t i = 0; i < count && status == FR_OK; i++) {
-        if (!is_in_arena(&setup->params, &seeds[i])) {
-            missing = left_out++ == 0 ? &seeds[i] : missing;
-        }
+    if (status == FR_OK) {
+        fr_seeds_check(setup, up_of(&setup->params), seeds, count, context);
     }
-    tell_left_out(missing, left_out, count, left_out == count, context);
     return status;
-}
-
-/// True unless a plant stands beside its envelope: a trunk that begins below it grows into it.
-static bool comes_within(const FrGrowth *growth, const FrGrownPlant *plant) {
-    enum { PLACES = 1024 };
-    const FrReadySpecies *species = fr_species_of(growth, plant);
-    double highest = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        double width = (double)growth->params.max.raw[axis] - (double)growth->params.min.raw[axis];
-        highest += width * fabs((double)growth->up.raw[axis]);
-    }
-    bool is_within = false;
-    for (int i = 0; i < PLACES && !is_within; i++) {
-        vec3s at = glms_vec3_scale(growth->up, (float)(highest * i / PLACES));
-        is_within = fr_envelope_holds(species, at, growth->up);
-    }
-    return is_within;
-}
-
-/// Seeds that stand wrong.
-typedef struct Misplaced {
-    uint32_t count;
-    const FrSeed *first;
-} Misplaced;
-
-static void note_misplaced(Misplaced *misplaced, const FrSeed *seed) {
-    misplaced->first = misplaced->count == 0 ? seed : misplaced->first;
-    misplaced->count++;
-}
-
-static void tell_outside(const Misplaced *outside, uint32_t count, const FrContext *context) {
-    if (outside->count > 0) {
-        const FrSeed *first = outside->first;
-        fr_diags_add(context->diags, FR_WARNING, "seed-envelope", first->span,
-                     "%u of %u seeds stand outside of their envelope and do not grow into it, the "
-                     "first of them at %g,%g,%g",
-                     outside->count, count, first->at[0], first->at[1], first->at[2]);
-    }
 }
 
 /// Only the first plants stay.
@@ -362,7 +298,7 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     growth->plants = g_renew(FrGrownPlant, growth->plants, first + count);
     memset(growth->plants + first, 0, count * sizeof *growth->plants);
     growth->plant_count += count;
-    Misplaced left_out = {0}, outside = {0};
+    FrMisplaced left_out = {0}, outside = {0};
     GArray *particles = g_array_new(FALSE, FALSE, sizeof(FrParticle));
     for (uint32_t i = 0; i < count && status == FR_OK; i++) {
         FrGrownPlant *plant = &growth->plants[first + i];
@@ -371,11 +307,11 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
         plant->seed.span = (FrSpan){0};
         plant->is_left_out = !has_place(growth, &seeds[i]);
         if (plant->is_left_out) {
-            note_misplaced(&left_out, &seeds[i]);
+            fr_misplaced_note(&left_out, &seeds[i]);
             continue;
         }
-        if (!comes_within(growth, plant)) {
-            note_misplaced(&outside, &seeds[i]);
+        if (!fr_species_comes_within(&growth->params, fr_species_of(growth, plant), growth->up)) {
+            fr_misplaced_note(&outside, &seeds[i]);
         }
         begin_plant(growth, plant);
         status = fr_growth_fill_envelope(growth, plant, particles, context);
@@ -388,9 +324,9 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     if (status != FR_OK) {
         keep_plants(growth, first);
     } else {
-        tell_left_out(left_out.first, left_out.count, count, left_out.count == growth->plant_count,
-                      context);
-        tell_outside(&outside, count, context);
+        fr_misplaced_tell_left_out(&left_out, count, left_out.count == growth->plant_count,
+                                   context);
+        fr_misplaced_tell_outside(&outside, count, context);
     }
     return status;
 }

@@ -182,12 +182,23 @@ static void find_suns(World *world, const FrScene *scene) {
     world->setup.suns = world->suns;
 }
 
+/// The ground and all obstacles.
+static FrStatus add_surroundings(World *world, const FrScene *scene, const FrHills *hills,
+                                 const FrContext *context) {
+    const vec3s box[2] = {world->setup.params.min, world->setup.params.max};
+    world->solids = fr_solids_new();
+    return fr_solids_add_surroundings(&world->solids, scene, hills, box, context);
+}
+
+static void set_obstacles(World *world) {
+    world->setup.obstacles = (const FrGrowthObstacle *)(const void *)world->solids.all->data;
+    world->setup.obstacle_count = world->solids.all->len;
+}
+
 /// All that stands in the scene and does not grow bud by bud.
 static FrStatus add_solids(const FrEcosystem *ecosystem, World *world, const FrScene *scene,
                            const FrHills *hills, const FrContext *context) {
-    const vec3s box[2] = {world->setup.params.min, world->setup.params.max};
-    world->solids = fr_solids_new();
-    FrStatus status = fr_solids_add_surroundings(&world->solids, scene, hills, box, context);
+    FrStatus status = add_surroundings(world, scene, hills, context);
     GHashTable *growing = g_hash_table_new(NULL, NULL);
     for (guint i = 0; i < ecosystem->plants->len; i++) {
         uint32_t plant = g_array_index(ecosystem->plants, uint32_t, i);
@@ -201,8 +212,7 @@ static FrStatus add_solids(const FrEcosystem *ecosystem, World *world, const FrS
         }
     }
     g_hash_table_unref(growing);
-    world->setup.obstacles = (const FrGrowthObstacle *)(const void *)world->solids.all->data;
-    world->setup.obstacle_count = world->solids.all->len;
+    set_obstacles(world);
     return status;
 }
 
@@ -354,17 +364,19 @@ FrStatus fr_ecosystem_begin(FrEcosystem *ecosystem, const FrScene *scene, const 
 }
 
 FrStatus fr_ecosystem_check(const FrEcosystem *ecosystem, const FrScene *scene,
-                            const FrContext *context) {
+                            const FrHills *hills, const FrContext *context) {
     if (ecosystem->definitions->len == 0) {
         return FR_OK;
     }
     World world;
     set_up(ecosystem, scene, &world);
-    world.solids = fr_solids_new();
+    FrStatus status = add_surroundings(&world, scene, hills, context);
+    set_obstacles(&world);
     Told told = listen(context);
-    FrStatus status =
-        fr_growth_check(&world.setup, (const FrSeed *)(const void *)ecosystem->seeds->data,
-                        ecosystem->seeds->len, &told.context);
+    if (status == FR_OK) {
+        status = fr_growth_check(&world.setup, (const FrSeed *)(const void *)ecosystem->seeds->data,
+                                 ecosystem->seeds->len, &told.context);
+    }
     if (status == FR_OK) {
         status = fr_particles_check(fr_document_growth(ecosystem->document), 0, &told.context);
     }

@@ -22,7 +22,7 @@ FR_MUST_USE FrStatus fr_ecosystem_begin(FrEcosystem *ecosystem, const FrScene *s
                                         const FrHills *hills, const FrContext *context);
 /// Says what is wrong with species, seeds and particles without making any of it.
 FR_MUST_USE FrStatus fr_ecosystem_check(const FrEcosystem *ecosystem, const FrScene *scene,
-                                        const FrContext *context);
+                                        const FrHills *hills, const FrContext *context);
 /// One step, which is told in the scene's.
 FR_MUST_USE FrStatus fr_ecosystem_step(FrEcosystem *ecosystem, FrScene *scene,
                                        const FrContext *context);

@@ -347,7 +347,7 @@ static FrStatus build_all(Build *build) {
         status = fr_sampled_build(build->sampled, build->document, scene, build->context);
     }
     if (status == FR_OK && build->is_check) {
-        status = fr_ecosystem_check(build->ecosystem, scene, build->context);
+        status = fr_ecosystem_check(build->ecosystem, scene, build->hills, build->context);
     } else if (status == FR_OK && !fr_ecosystem_is_empty(build->ecosystem)) {
         status = fr_ecosystem_begin(build->ecosystem, scene, build->hills, build->context);
     }

@@ -34,21 +34,44 @@ static bool passes_edge(const double a[3], const double b[3], double y, double z
     return low[1] + (z - low[2]) / (high[2] - low[2]) * (high[1] - low[1]) > y;
 }
 
-static void cross_triangle(double corner[3][3], const FrCellGrid *grid, int64_t y, int64_t z,
-                           const double normal[3], GArray *crossings) {
-    double at[2] = {grid->origin[1] + ((double)y + 0.5) * grid->cell,
-                    grid->origin[2] + ((double)z + 0.5) * grid->cell};
+/// A triangle with its box and normal.
+typedef struct Facet {
+    double corner[3][3], min[3], max[3], normal[3];
+} Facet;
+
+static Facet facet_of(const vec3s *positions, const uint32_t *index) {
+    Facet facet;
+    double a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        for (int c = 0; c < 3; c++) {
+            facet.corner[c][k] = (double)positions[index[c]].raw[k];
+        }
+        const double(*corner)[3] = (const double(*)[3])facet.corner;
+        facet.min[k] = fmin(corner[0][k], fmin(corner[1][k], corner[2][k]));
+        facet.max[k] = fmax(corner[0][k], fmax(corner[1][k], corner[2][k]));
+        a[k] = corner[1][k] - corner[0][k];
+        b[k] = corner[2][k] - corner[0][k];
+    }
+    for (int k = 0; k < 3; k++) {
+        int m = (k + 1) % 3, n = (k + 2) % 3;
+        facet.normal[k] = a[m] * b[n] - a[n] * b[m];
+    }
+    return facet;
+}
+
+/// Where the line at y, z along x crosses the triangle: +1 or −1 by its side, 0 if it does not.
+static int cross(const Facet *facet, double y, double z, double *x) {
+    const double *normal = facet->normal;
     bool is_hit = false;
     for (int k = 0; k < 3; k++) {
-        is_hit ^= passes_edge(corner[k], corner[(k + 1) % 3], at[0], at[1]);
+        is_hit ^= passes_edge(facet->corner[k], facet->corner[(k + 1) % 3], y, z);
     }
-    if (is_hit && normal[0] != 0) {
-        double x =
-            corner[0][0] -
-            (normal[1] * (at[0] - corner[0][1]) + normal[2] * (at[1] - corner[0][2])) / normal[0];
-        Crossing crossing = {z * grid->counts[1] + y, x, normal[0] > 0 ? 1 : -1};
-        g_array_append_val(crossings, crossing);
+    if (!is_hit || normal[0] == 0) {
+        return 0;
     }
+    const double *corner = facet->corner[0];
+    *x = corner[0] - (normal[1] * (y - corner[1]) + normal[2] * (z - corner[2])) / normal[0];
+    return normal[0] > 0 ? 1 : -1;
 }
 
 /// The cells along an axis whose middles lie between two places: first > last if there are none.
@@ -63,28 +86,19 @@ static void cells_between(const FrCellGrid *grid, int axis, double from, double 
 
 static void add_triangle(const vec3s *positions, const uint32_t *index, const FrCellGrid *grid,
                          GArray *crossings) {
-    double corner[3][3], min[3], max[3];
-    for (int k = 0; k < 3; k++) {
-        for (int c = 0; c < 3; c++) {
-            corner[c][k] = (double)positions[index[c]].raw[k];
-        }
-        min[k] = fmin(corner[0][k], fmin(corner[1][k], corner[2][k]));
-        max[k] = fmax(corner[0][k], fmax(corner[1][k], corner[2][k]));
-    }
-    double a[3], b[3];
-    for (int k = 0; k < 3; k++) {
-        a[k] = corner[1][k] - corner[0][k];
-        b[k] = corner[2][k] - corner[0][k];
-    }
-    const double normal[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                              a[0] * b[1] - a[1] * b[0]};
+    Facet facet = facet_of(positions, index);
     int64_t first[3], last[3];
     for (int k = 1; k < 3; k++) {
-        cells_between(grid, k, min[k], max[k], &first[k], &last[k]);
+        cells_between(grid, k, facet.min[k], facet.max[k], &first[k], &last[k]);
     }
     for (int64_t z = first[2]; z <= last[2]; z++) {
         for (int64_t y = first[1]; y <= last[1]; y++) {
-            cross_triangle(corner, grid, y, z, normal, crossings);
+            Crossing crossing = {.row = z * grid->counts[1] + y};
+            crossing.sign = cross(&facet, grid->origin[1] + ((double)y + 0.5) * grid->cell,
+                                  grid->origin[2] + ((double)z + 0.5) * grid->cell, &crossing.x);
+            if (crossing.sign != 0) {
+                g_array_append_val(crossings, crossing);
+            }
         }
     }
 }
@@ -134,4 +148,71 @@ void fr_solid_cells(const vec3s *positions, const uint32_t *indices, uint32_t in
         fill_row(&all[first], end - first, grid, run, data);
     }
     g_array_unref(crossings);
+}
+
+// ---- points -----------------------------------------------------------------------------------
+
+/// A point in the surface's box, and how often the surface winds around it.
+typedef struct Wound {
+    const double *at;
+    uint32_t point;
+    int winding; ///< of what is crossed beyond it …
+    int all;     ///< … and on its whole row: 0 unless the surface is open there
+} Wound;
+
+static int compare_wound(const void *a, const void *b) {
+    const Wound *p = a, *q = b;
+    return p->at[1] < q->at[1] ? -1 : p->at[1] > q->at[1];
+}
+
+/// Those points that are in the box of the surface, by rising y.
+static GArray *points_in_box(const vec3s *positions, const uint32_t *indices, uint32_t index_count,
+                             const FrPoint3 *points, uint32_t count) {
+    double min[3] = {INFINITY, INFINITY, INFINITY}, max[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < index_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            min[k] = fmin(min[k], (double)positions[indices[i]].raw[k]);
+            max[k] = fmax(max[k], (double)positions[indices[i]].raw[k]);
+        }
+    }
+    GArray *within = g_array_new(FALSE, FALSE, sizeof(Wound));
+    for (uint32_t i = 0; i < count; i++) {
+        const double *at = points[i].at;
+        if (at[0] >= min[0] && at[0] <= max[0] && at[1] >= min[1] && at[1] <= max[1] &&
+            at[2] >= min[2] && at[2] <= max[2]) {
+            Wound wound = {at, i, 0, 0};
+            g_array_append_val(within, wound);
+        }
+    }
+    g_array_sort(within, compare_wound);
+    return within;
+}
+
+void fr_solid_holds(const vec3s *positions, const uint32_t *indices, uint32_t index_count,
+                    const FrPoint3 *points, uint32_t count, bool *is_held) {
+    GArray *within = points_in_box(positions, indices, index_count, points, count);
+    Wound *wounds = (Wound *)(void *)within->data;
+    for (uint32_t i = 0; i + 2 < index_count && within->len > 0; i += 3) {
+        Facet facet = facet_of(positions, &indices[i]);
+        guint low = 0, high = within->len;
+        while (low < high) { // the first whose y is not below the triangle
+            guint middle = low + (high - low) / 2;
+            bool is_below = wounds[middle].at[1] < facet.min[1];
+            low = is_below ? middle + 1 : low;
+            high = is_below ? high : middle;
+        }
+        for (; low < within->len && wounds[low].at[1] <= facet.max[1]; low++) {
+            const double *at = wounds[low].at;
+            double x = 0;
+            int sign = at[2] >= facet.min[2] && at[2] <= facet.max[2]
+                           ? cross(&facet, at[1], at[2], &x)
+                           : 0;
+            wounds[low].winding += x > at[0] ? sign : 0;
+            wounds[low].all += sign;
+        }
+    }
+    for (guint i = 0; i < within->len; i++) {
+        is_held[wounds[i].point] |= wounds[i].winding != 0 && wounds[i].all == 0;
+    }
+    g_array_unref(within);
 }

@@ -48,11 +48,39 @@ static void test_checked(void) {
     world_clear(&world);
 }
 
+/// A seed in a box, one beside its envelope and a good one, told without making the world.
+static void test_checked_seeds(void) {
+    static const vec3s corners[8] = {{{3, -1, 0}}, {{5, -1, 0}}, {{5, 1, 0}}, {{3, 1, 0}},
+                                     {{3, -1, 2}}, {{5, -1, 2}}, {{5, 1, 2}}, {{3, 1, 2}}};
+    static const uint32_t sides[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+                                       1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+    FrGrowthObstacle box = {
+        .positions = corners, .vertex_count = 8, .indices = sides, .index_count = 36};
+    World world;
+    world_init(&world);
+    world.setup.obstacles = &box;
+    world.setup.obstacle_count = 1;
+    const FrSeed seeds[2] = {{.id = 1, .at = {2, 0, 0}}, {.id = 2, .at = {4, 0.2, 0}}};
+    g_assert_cmpint(fr_growth_check(&world.setup, seeds, 2, &world.context), ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(world.context.diags), ==, 1);
+    const FrDiag *diag = fr_diags_get(world.context.diags, 0);
+    g_assert_cmpstr(diag->code, ==, "seed-place");
+    g_assert_nonnull(strstr(diag->text, "1 of 2 seeds"));
+    g_assert_nonnull(strstr(diag->text, "4,0.2,0"));
+    world_set(&world, "envelope", "0,-3 1,-2 0,-1");
+    g_assert_cmpint(fr_growth_check(&world.setup, seeds, 2, &world.context), ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(world.context.diags), ==, 3);
+    g_assert_cmpstr(fr_diags_get(world.context.diags, 2)->code, ==, "seed-envelope");
+    world_clear(&world);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func(
         "/growth/step/a step that is cancelled before plants change leaves all as it was",
         test_cancelled);
     g_test_add_func("/growth/step/a setup is checked without making its world", test_checked);
+    g_test_add_func("/growth/step/seeds in obstacles and beside envelopes are told by checking",
+                    test_checked_seeds);
     return g_test_run();
 }

@@ -129,12 +129,15 @@ def told_at_places(folder):
     <growth steps="1"/>
     <place plant="oak"/>
     <place plant="oak" at="500, 0, 0"/>
+    <place plant="oak" at="3, 0, 0"/>
+    <obstacle at="3, 0, 0" size="1, 1, 1"/>
   </scene>
 </frond>
 """)
-    said = tap.run("build", document, "--set", "oak.species.leaf-length=0.3").stderr
-    assert "wrong.frond:5:6: warning" in said and "[seed-envelope]" in said, said
-    assert "wrong.frond:6:6: warning" in said and "[seed-place]" in said, said
+    for command in ("build", "check"):
+        said = tap.run(command, document, "--set", "oak.species.leaf-length=0.3").stderr
+        assert "wrong.frond:5:6: warning: 1 of 3" in said and "[seed-envelope]" in said, said
+        assert "wrong.frond:6:6: warning: 2 of 3" in said and "[seed-place]" in said, said
 
 
 def checked_soon(folder):

@@ -129,6 +129,41 @@ static void open_surfaces(void) {
     g_free(cells);
 }
 
+/// The middles of all cells that lie in a turned cube are held, and no others.
+static void held_points(void) {
+    vec3s moved[8];
+    versors turn = fr_rotation_about(glms_vec3_normalize((vec3s){{3, 1, 2}}), 1.1F);
+    for (int i = 0; i < 8; i++) {
+        moved[i] = glms_quat_rotatev(turn, cube[i]);
+    }
+    enum { COUNT = SIDE * SIDE * SIDE };
+    FrPoint3 *points = g_new(FrPoint3, COUNT);
+    bool *is_held = g_new0(bool, COUNT);
+    for (int i = 0; i < COUNT; i++) {
+        points[i] = (FrPoint3){{-1.95 + 0.1 * (i % SIDE), -1.95 + 0.1 * (i / SIDE % SIDE),
+                                -1.95 + 0.1 * (i / SIDE / SIDE)}};
+    }
+    fr_solid_holds(moved, sides, 36, points, COUNT, is_held);
+    int held = 0;
+    for (int i = 0; i < COUNT; i++) {
+        vec3s at = {{(float)points[i].at[0], (float)points[i].at[1], (float)points[i].at[2]}};
+        vec3s back = glms_quat_rotatev(glms_quat_conjugate(turn), at);
+        float beyond = fmaxf(fabsf(back.x), fmaxf(fabsf(back.y), fabsf(back.z))) - 1;
+        g_assert_true(fabsf(beyond) < 1e-5F || is_held[i] == (beyond < 0));
+        held += is_held[i];
+    }
+    g_assert_cmpint(held, >, 7500);
+    memset(is_held, 0, COUNT);
+    fr_solid_holds(moved, sides, 30, points, COUNT, is_held); // a side is missing: rows are open
+    int fewer = 0;
+    for (int i = 0; i < COUNT; i++) {
+        fewer += is_held[i];
+    }
+    g_assert_cmpint(fewer, <, held);
+    g_free(points);
+    g_free(is_held);
+}
+
 /// The same cells, in bricks.
 static void filled_voxels(void) {
     vec3s moved[8];
@@ -210,6 +245,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/space/solid/overlapping solids are one, whichever way they turn",
                     union_cells);
     g_test_add_func("/space/solid/open and flat surfaces enclose nothing", open_surfaces);
+    g_test_add_func("/space/solid/points are held by what winds around them", held_points);
     g_test_add_func("/space/solid/voxels are filled with the same cells", filled_voxels);
     g_test_add_func("/space/solid/what is deep inside costs no memory", deep_inside);
     return g_test_run();
