@@ -164,20 +164,21 @@ static void tell(const char *name, Work *work, double limit, const char *what) {
 
 /// From the string to an FrPlant in fresh memory: the walk over its modules, 3D segments with
 /// widths as rows of axes and internodes, counts and box, frames and rotations of all internodes.
-static void tell_turtle(const char *name, Work *work) {
+static void tell_turtle(const char *name, Work *work, const char *threads) {
     double seconds = bench_shortest(5, draw, work);
     bench_tell(name, (double)work->plant->nodes.count / seconds, 0, "segments/s",
-               "its string to a plant: %u segments, 1 thread", work->plant->nodes.count);
+               "its string to a plant: %u segments, %s", work->plant->nodes.count, threads);
 }
 
 void bench_lsystem(void) {
     double by_hand = rate_by_hand();
     Work mono = begin(MONO, STEPS, 1);
     tell("lsystem.mono", &mono, by_hand, "monopodial tree, 20 steps, 1 thread");
-    tell_turtle("lsystem.turtle", &mono);
+    tell_turtle("lsystem.turtle", &mono, "1 thread");
     end(&mono);
     Work two = begin(MONO, STEPS, 2);
     tell("lsystem.mono-2", &two, by_hand, "the same on 2 threads");
+    tell_turtle("lsystem.turtle-2", &two, "2 threads");
     end(&two);
     Work koch = begin(KOCH, 6, 1);
     tell("lsystem.koch", &koch, 0, "quadratic Koch island, 6 steps");

@@ -14,9 +14,12 @@ struct FrLbuilder {
     const FrLview *view;
     FrLdrawn drawn;
     FrStatus status;
-    uint32_t nodes, axes;        ///< in use; the plant has some more
-    uint32_t framed;             ///< nodes whose frames are known
-    float waiting[6][FR_LBLOCK]; ///< heading and left of those behind
+    uint32_t nodes, axes;          ///< in use; the plant has some more
+    uint32_t node_room, axis_room; ///< rows that are there and filled
+    uint32_t framed;               ///< nodes whose frames are known
+    uint32_t first_node;           ///< that it writes; those before are another part's
+    struct FrLbuilderPart *part;   ///< NULL: it writes all of the plant
+    float waiting[6][FR_LBLOCK];   ///< heading and left of those behind
     const FrLderivation *derivation;
     uint32_t *components; ///< by the mark of a head: component of the plant, FR_NONE: none so far
     uint32_t makers;      ///< how many of them

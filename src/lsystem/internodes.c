@@ -2,7 +2,8 @@
 // branches; behind `[` and behind a jump begins a new one. What the turtle knows is written at
 // once, in the plant's coordinates; frames follow a block at a time, while its rows are still in
 // the nearest cache, eight abreast.
-#include "lsystem/build.h"
+#include "lsystem/split.h"
+
 #include "math/lanes.h"
 #include "plant/columns.h"
 
@@ -87,13 +88,27 @@ void fr_lbuilder_settle_frames(FrLbuilder *builder) {
         write_rows(nodes->frame + first + i, frames, some);
         FrLaneBits parents = {0};
         memcpy(&parents, nodes->parent + first + i, some * sizeof *bearer);
-        FrLaneMask is_borne = (FrLaneMask)(parents != FR_NONE);
-        parents &= (FrLaneBits)is_borne; // node 0 in place of none
+        // In place of none and of those that another part writes: one that is there.
+        FrLaneMask is_borne = (FrLaneMask)((parents != FR_NONE) & (parents >= builder->first_node));
+        parents = (parents & (FrLaneBits)is_borne) | (first & ~(FrLaneBits)is_borne);
         memcpy(bearer, &parents, sizeof bearer);
         FrLanes4 turned = between(fr_lanes4_gather(nodes->frame, bearer), frames);
         write_rows(nodes->rotation + first + i, select4(is_borne, turned, frames), some);
     }
     builder->framed = builder->nodes;
+}
+
+/// The rotation of one node from its parent, of which both frames are known.
+FR_LANES_CLONES
+static void turn_from(FrNodes *nodes, uint32_t parent, uint32_t node) {
+    uint32_t from[FR_LANES], to[FR_LANES];
+    for (int k = 0; k < FR_LANES; k++) {
+        from[k] = parent;
+        to[k] = node;
+    }
+    write_rows(nodes->rotation + node,
+               between(fr_lanes4_gather(nodes->frame, from), fr_lanes4_gather(nodes->frame, to)),
+               1);
 }
 
 // ---- rows -------------------------------------------------------------------------------------
@@ -103,6 +118,13 @@ static bool grow_nodes(FrLbuilder *builder, uint32_t maker, uint64_t module) {
     builder->maker = maker;
     builder->module = module;
     fr_lbuilder_settle_frames(builder);
+    if (builder->part != NULL) {
+        uint32_t count = MIN(builder->part->end_node - builder->nodes, FR_LBLOCK);
+        fr_columns_fill(&builder->plant->nodes, &fr_node_columns, builder->nodes, count, OWN_NODES);
+        builder->node_room += count;
+        FR_ASSERT(count > 0); // they were counted
+        return true;
+    }
     uint64_t most = MIN(builder->context->limits.nodes, FR_NONE - UINT64_C(1));
     FrStatus status =
         fr_lbuilder_limit(builder, builder->nodes + UINT64_C(1), most, "nodes", "the string");
@@ -112,7 +134,22 @@ static bool grow_nodes(FrLbuilder *builder, uint32_t maker, uint64_t module) {
     }
     fr_columns_append_but(&builder->plant->nodes, &fr_node_columns,
                           (uint32_t)MIN(most - builder->nodes, FR_LBLOCK), OWN_NODES);
+    builder->node_room = builder->plant->nodes.count;
     return true;
+}
+
+static void grow_axes(FrLbuilder *builder) {
+    FrAxes *axes = &builder->plant->axes;
+    if (builder->part != NULL) {
+        uint32_t count = MIN(builder->part->end_axis - builder->axes, FR_LBLOCK);
+        FR_ASSERT(count > 0);
+        fr_columns_fill(axes, &fr_axis_columns, builder->axes, count, OWN_AXES);
+        builder->axis_room += count;
+    } else {
+        // There are never more than nodes.
+        fr_columns_append_but(axes, &fr_axis_columns, FR_LBLOCK, OWN_AXES);
+        builder->axis_room = axes->count;
+    }
 }
 
 uint32_t fr_lbuilder_painted(FrLbuilder *builder, int32_t colour, uint32_t otherwise) {
@@ -139,22 +176,77 @@ uint32_t fr_lbuilder_component(FrLbuilder *builder, uint32_t maker) {
     return is_known ? builder->components[maker] : add_component(builder, maker);
 }
 
+// ---- parts ------------------------------------------------------------------------------------
+
+/// What is known of a node before the part.
+static const FrLfoot *foot_of(const FrLbuilder *builder, uint32_t node) {
+    const FrLbuilderPart *part = builder->part;
+    uint32_t k = part->feet_count - 1;
+    while (k > 0 && part->feet[k].node != node) {
+        k--;
+    }
+    return &part->feet[k];
+}
+
+/// The tie by which the part came to an axis that began before it.
+static FrLtie *tie_of(const FrLbuilderPart *part, uint32_t axis) {
+    FrLtie *ties = (FrLtie *)(void *)part->ties->data;
+    guint k = part->ties->len - 1;
+    while (k > 0 && !(ties[k].goes_on && ties[k].axis == axis)) {
+        k--;
+    }
+    return &ties[k];
+}
+
+static inline uint16_t order_of(const FrLbuilder *builder, uint32_t axis) {
+    return builder->part != NULL && axis < builder->part->first_axis
+               ? tie_of(builder->part, axis)->order
+               : builder->plant->axes.order[axis];
+}
+
+static inline void set_last(FrLbuilder *builder, uint32_t axis, uint32_t node) {
+    if (builder->part != NULL && axis < builder->part->first_axis) {
+        tie_of(builder->part, axis)->last = node;
+    } else {
+        builder->plant->axes.last[axis] = node;
+    }
+}
+
+void fr_lbuilder_join(FrLbuilder *whole, const FrLbuilderPart *part) {
+    FrNodes *nodes = &whole->plant->nodes;
+    FrAxes *axes = &whole->plant->axes;
+    for (guint k = 0; k < part->ties->len; k++) {
+        const FrLtie *tie = &g_array_index(part->ties, FrLtie, k);
+        turn_from(nodes, tie->parent, tie->node);
+        if (tie->goes_on) {
+            nodes->next[tie->parent] = tie->node;
+            axes->last[tie->axis] = tie->last;
+        } else if (tie->is_offset) {
+            axes->offset[tie->axis] =
+                glms_vec3_sub(axes->offset[tie->axis], nodes->position[tie->parent]);
+        }
+    }
+}
+
 /// Begins an axis with the node made last; its offset is in the plant's coordinates until the end.
 static uint32_t begin_axis(FrLbuilder *builder, const FrLsegment *segment, FrLstand stand,
                            float width) {
     FrPlant *plant = builder->plant;
     FrAxes *axes = &plant->axes;
-    if (builder->axes == axes->count) {
-        // There are never more than nodes.
-        fr_columns_append_but(axes, &fr_axis_columns, FR_LBLOCK, OWN_AXES);
+    if (builder->axes == builder->axis_room) {
+        grow_axes(builder);
     }
     uint32_t axis = builder->axes++, node = fr_lstand_node(stand);
+    bool is_elsewhere = node < builder->first_node;
     if (node == FR_NONE) {
         axes->offset[axis] = fr_lturtle_world(segment->start);
     } else {
-        uint16_t order = axes->order[plant->nodes.axis[node]];
+        uint16_t order = is_elsewhere ? foot_of(builder, node)->order
+                                      : order_of(builder, plant->nodes.axis[node]);
         axes->order[axis] = (uint16_t)(order + (order < UINT16_MAX));
-        if ((stand & FR_LSTAND_TIP) == 0) {
+        if ((stand & FR_LSTAND_TIP) == 0 && is_elsewhere) {
+            axes->offset[axis] = fr_lturtle_world(segment->start);
+        } else if ((stand & FR_LSTAND_TIP) == 0) {
             vec3s start = fr_lturtle_world(segment->start);
             axes->offset[axis] = glms_vec3_sub(start, plant->nodes.position[node]);
         }
@@ -162,7 +254,8 @@ static uint32_t begin_axis(FrLbuilder *builder, const FrLsegment *segment, FrLst
     axes->first[axis] = builder->nodes - 1;
     axes->bearer[axis] = node;
     axes->base_radius[axis] = width / 2;
-    axes->component[axis] = fr_lbuilder_component(builder, segment->maker);
+    axes->component[axis] =
+        builder->part != NULL ? segment->maker : fr_lbuilder_component(builder, segment->maker);
     axes->material[axis] = fr_lbuilder_painted(builder, segment->colour, builder->wood);
     axes->profile[axis] = builder->section;
     axes->path[axis] = fr_key_child(fr_key_root(0), segment->module);
@@ -175,23 +268,43 @@ static inline bool is_coloured(FrLbuilder *builder, uint32_t axis, int32_t colou
                                            fr_lbuilder_painted(builder, colour, builder->wood);
 }
 
+/// The axis of the node made last, where its parent is before the part.
+static uint32_t tie_axis(FrLbuilder *builder, const FrLsegment *segment, FrLstand stand,
+                         float width) {
+    uint32_t parent = fr_lstand_node(stand);
+    const FrLfoot *foot = foot_of(builder, parent);
+    FrLtie tie = {.node = builder->nodes - 1,
+                  .parent = parent,
+                  .axis = foot->axis,
+                  .order = foot->order,
+                  .goes_on = (stand & ~FR_LSTAND_NODE) == FR_LSTAND_TIP,
+                  .is_offset = (stand & FR_LSTAND_TIP) == 0};
+    if (!tie.goes_on) {
+        tie.axis = begin_axis(builder, segment, stand, width);
+    }
+    g_array_append_val(builder->part->ties, tie);
+    return tie.axis;
+}
+
 uint32_t fr_lbuilder_begin(FrLbuilder *builder, FrLstand *stand, const FrLsegment *segment,
                            float width) {
-    if (builder->nodes == builder->plant->nodes.count &&
+    if (builder->nodes == builder->node_room &&
         !grow_nodes(builder, segment->maker, segment->module)) {
         return FR_NONE;
     }
     FrNodes *nodes = &builder->plant->nodes;
     uint32_t node = builder->nodes++, parent = fr_lstand_node(*stand), axis;
-    if (parent != FR_NONE && (*stand & ~FR_LSTAND_NODE) == FR_LSTAND_TIP &&
-        nodes->next[parent] == FR_NONE &&
-        is_coloured(builder, nodes->axis[parent], segment->colour)) {
+    if (parent < builder->first_node) {
+        axis = tie_axis(builder, segment, *stand, width);
+    } else if (parent != FR_NONE && (*stand & ~FR_LSTAND_NODE) == FR_LSTAND_TIP &&
+               nodes->next[parent] == FR_NONE &&
+               is_coloured(builder, nodes->axis[parent], segment->colour)) {
         axis = nodes->axis[parent];
         nodes->next[parent] = node;
     } else {
         axis = begin_axis(builder, segment, *stand, width);
     }
-    builder->plant->axes.last[axis] = node;
+    set_last(builder, axis, node);
     nodes->parent[node] = parent;
     nodes->axis[node] = axis;
     nodes->length[node] = (float)segment->length;

@@ -1,5 +1,5 @@
 // Interpretation: homomorphism module after module, then the turtle. The string is only read.
-#include "lsystem/build.h"
+#include "lsystem/split.h"
 
 #include <math.h>
 
@@ -354,9 +354,10 @@ FrStatus fr_lderivation_draw(FrLderivation *derivation, const FrContext *context
     fr_lturtle_init(&turtle, derivation, builder, context);
     if (has_homomorphism(derivation->system, false)) {
         status = fr_lderive_interpret(derivation, take_module, &turtle.is_raw, &turtle, context);
-    } else {
-        fr_lbuilder_reserve(builder, derivation->string);
-        fr_lturtle_read(&turtle, derivation->string);
+    } else if (!fr_lturtle_read_split(&turtle, derivation->string)) {
+        const FrLstring *string = derivation->string;
+        fr_lbuilder_reserve(builder, string);
+        fr_lturtle_walk(&turtle, string->words, 0, string->count, 0);
     }
     fr_lturtle_end_node(&turtle);
     status = MAX(status, MAX(turtle.status, builder->status));

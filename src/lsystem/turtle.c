@@ -8,7 +8,6 @@
 // Of brackets within brackets: 40 MB of poses.
 #define MOST_BRACKETS 100000
 #define LEAST_WIDTH 1e-7F
-#define MOST_LENGTH 1e9F
 
 static void set_tropisms(FrLpose *pose, const FrLview *view) {
     for (guint i = 0; i < MIN(view->tropisms->len, FR_LTROPISMS); i++) {
@@ -191,13 +190,6 @@ void fr_lturtle_end_node(FrLturtle *turtle) {
     end_node(turtle);
 }
 
-/// Length of a move: single precision, as cpfg has it.
-static inline float length_of(const FrLpose *pose, const uint32_t *module) {
-    float length =
-        fr_lhead_count(*module) > 0 ? fr_lword_float(module[1]) * pose->scale : pose->scale;
-    return fabsf(length) <= MOST_LENGTH ? length : 0;
-}
-
 static inline void advance(FrLturtle *turtle, double length, bool adds_points, uint32_t head,
                            uint64_t origin) {
     FrLpose *pose = &turtle->pose;
@@ -223,7 +215,7 @@ static inline void draw(FrLturtle *turtle, const uint32_t *module, char symbol, 
         fr_lturtle_bend(turtle);
     }
     end_node(turtle);
-    float length = length_of(pose, module);
+    float length = fr_lturtle_length(pose, module);
     begin_segment(turtle, *module, origin, length);
     advance(turtle, (double)length, symbol == 'F', *module, origin);
     if (turtle->keeps_all) {
@@ -238,7 +230,7 @@ static void jump(FrLturtle *turtle, const uint32_t *module, char symbol, uint64_
         fr_lturtle_bend(turtle);
     }
     end_node(turtle);
-    float length = length_of(pose, module);
+    float length = fr_lturtle_length(pose, module);
     pose->stand &= length == 0 ? ~UINT64_C(0) : ~FR_LSTAND_TIP;
     advance(turtle, (double)length, symbol == 'f', *module, origin);
 }
@@ -250,7 +242,7 @@ static void change_width(FrLturtle *turtle, const uint32_t *module, int sign) {
     float width = fr_lhead_count(*module) > 0
                       ? fr_lword_float(module[1]) * pose->scale
                       : pose->width + (float)sign * (float)turtle->view->width_step * pose->scale;
-    pose->width = width > LEAST_WIDTH ? MIN(width, MOST_LENGTH) : LEAST_WIDTH;
+    pose->width = width > LEAST_WIDTH ? MIN(width, FR_LMOST_LENGTH) : LEAST_WIDTH;
 }
 
 static void change_colour(FrLturtle *turtle, const uint32_t *module, int sign) {
@@ -307,7 +299,7 @@ static void use_scale(FrLturtle *turtle, float before) {
     FrLpose *pose = &turtle->pose;
     pose->scale = g_array_index(turtle->scales, float, turtle->scales->len - 1);
     float width = pose->width * pose->scale / before;
-    pose->width = fabsf(width) < MOST_LENGTH ? width : 1;
+    pose->width = fabsf(width) < FR_LMOST_LENGTH ? width : 1;
 }
 
 static void enter_call(FrLturtle *turtle, const uint32_t *module) {
@@ -487,11 +479,12 @@ bool fr_lturtle_take(FrLturtle *turtle, const uint32_t *module, uint64_t origin)
     return turtle->status == FR_OK;
 }
 
-void fr_lturtle_read(FrLturtle *turtle, const FrLstring *string) {
-    uint64_t origin = 0;
+void fr_lturtle_walk(FrLturtle *turtle, const uint32_t *words, uint64_t from, uint64_t to,
+                     uint64_t module_index) {
+    uint64_t origin = module_index;
     bool is_special = false; // nothing is what it is behind a prefix or a cut
-    for (uint64_t at = 0; at < string->count && turtle->status == FR_OK; origin++) {
-        const uint32_t *module = string->words + at;
+    for (uint64_t at = from; at < to && turtle->status == FR_OK; origin++) {
+        const uint32_t *module = words + at;
         at += 1 + fr_lhead_count(*module);
         unsigned deed = is_special ? DEED_OTHER : turtle->deeds[fr_lhead_symbol(*module)];
         if (!obey_plain(turtle, deed, module, origin) && deed == DEED_OTHER) {
@@ -502,5 +495,5 @@ void fr_lturtle_read(FrLturtle *turtle, const FrLstring *string) {
             turtle->status = FR_CANCELLED;
         }
     }
-    turtle->modules += origin;
+    turtle->modules += origin - module_index;
 }

@@ -7,7 +7,10 @@
 
 #include "lsystem/derive.h"
 
+#include <math.h>
+
 #define FR_LTROPISMS 10
+#define FR_LMOST_LENGTH 1e9F ///< of a move, and of a width
 
 /// Where in the plant something begins: a node (FR_NONE: on the ground) and marks above it. One
 /// word, because what is written in pieces and read as one soon after stalls the processor.
@@ -128,8 +131,10 @@ void fr_lturtle_init(FrLturtle *turtle, const FrLderivation *derivation, FrLbuil
 void fr_lturtle_clear(FrLturtle *turtle);
 /// Obeys one module; false where it must stop.
 bool fr_lturtle_take(FrLturtle *turtle, const uint32_t *module, uint64_t origin);
-/// Obeys the modules of a string that has no homomorphism.
-void fr_lturtle_read(FrLturtle *turtle, const FrLstring *string);
+/// Obeys the modules of a string that has no homomorphism, from a word to another; the first is
+/// that many modules behind its begin.
+void fr_lturtle_walk(FrLturtle *turtle, const uint32_t *words, uint64_t from, uint64_t to,
+                     uint64_t module);
 /// Ends the segment that is begun and counts the place into the bounding box.
 void fr_lturtle_end_node(FrLturtle *turtle);
 /// `@` and what follows; false where the symbol means nothing there and is obeyed by itself.
@@ -152,6 +157,12 @@ static inline void fr_lturtle_turn(double a[restrict 4], double b[restrict 4], d
         a[k] = x * cosine + y * sine;
         b[k] = y * cosine - x * sine;
     }
+}
+/// Length of a move: single precision, as cpfg has it.
+static inline float fr_lturtle_length(const FrLpose *pose, const uint32_t *module) {
+    float length =
+        fr_lhead_count(*module) > 0 ? fr_lword_float(module[1]) * pose->scale : pose->scale;
+    return fabsf(length) <= FR_LMOST_LENGTH ? length : 0;
 }
 /// Sine and cosine of an angle in degrees, remembered.
 void fr_lturtle_sine(FrLturtle *turtle, float degrees, double *sine, double *cosine);

@@ -113,14 +113,13 @@ uint32_t fr_columns_append(void *table, const FrColumns *columns, uint32_t count
     return fr_columns_append_but(table, columns, count, 0);
 }
 
-uint32_t fr_columns_append_but(void *table, const FrColumns *columns, uint32_t count,
-                               uint32_t written) {
+void fr_columns_extend(void *table, const FrColumns *columns, uint32_t count) {
     FrTableHead *head = head_of(table);
-    uint32_t first = head->count;
-    FR_ASSERT(count < FR_NONE - first); // FR_NONE stays free to mean "none"
+    FR_ASSERT(count < FR_NONE - head->count); // FR_NONE stays free to mean "none"
     if (count == 0) {
-        return first;
+        return;
     }
+    uint32_t first = head->count;
     uint32_t wanted = first + count;
     if (wanted > head->capacity) {
         // Appended one by one, rows double the table; appended at once, they get what they need.
@@ -128,13 +127,24 @@ uint32_t fr_columns_append_but(void *table, const FrColumns *columns, uint32_t c
         bool grows = first > 0 && doubled < FR_NONE;
         reserve(table, columns, grows ? MAX((uint32_t)doubled, wanted) : MAX(wanted, 16));
     }
+    head->count = wanted;
+}
+
+void fr_columns_fill(void *table, const FrColumns *columns, uint32_t first, uint32_t count,
+                     uint32_t written) {
     for (size_t c = 0; c < columns->count; c++) {
         if ((written >> c & 1) == 0) {
             fill_rows(fr_column_data(table, &columns->columns[c]), &columns->columns[c], first,
                       count);
         }
     }
-    head->count = wanted;
+}
+
+uint32_t fr_columns_append_but(void *table, const FrColumns *columns, uint32_t count,
+                               uint32_t written) {
+    uint32_t first = head_of(table)->count;
+    fr_columns_extend(table, columns, count);
+    fr_columns_fill(table, columns, first, count, written);
     return first;
 }
 

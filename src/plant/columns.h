@@ -97,6 +97,11 @@ uint32_t fr_columns_append(void *table, const FrColumns *columns, uint32_t count
 /// which hold anything until then.
 uint32_t fr_columns_append_but(void *table, const FrColumns *columns, uint32_t count,
                                uint32_t written);
+/// Appends rows that hold anything until fr_columns_fill() and the caller have written them.
+void fr_columns_extend(void *table, const FrColumns *columns, uint32_t count);
+/// Fills rows but for the columns whose bit is set in `written`.
+void fr_columns_fill(void *table, const FrColumns *columns, uint32_t first, uint32_t count,
+                     uint32_t written);
 /// Makes `to` (uninitialized) a copy of `from`, without spare capacity.
 void fr_columns_copy(void *to, const void *from, const FrColumns *columns);
 /// Keeps row i where map[i] is not FR_NONE, moving it to map[i] ≤ i; the table then has `count`.
