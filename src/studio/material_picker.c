@@ -34,6 +34,11 @@ static void paint(StudioMaterialPicker *picker, GtkWidget *swatch, uint32_t mate
                               : studio_swatches_get(picker->swatches, picker->document, material,
                                                     (uint32_t)(SHARPER * size));
     gtk_picture_set_paintable(GTK_PICTURE(swatch), GDK_PAINTABLE(texture));
+    if (texture == NULL) {
+        gtk_widget_add_css_class(swatch, "no-material");
+    } else {
+        gtk_widget_remove_css_class(swatch, "no-material");
+    }
     g_clear_object(&texture);
 }
 

@@ -62,6 +62,7 @@ static void update_panels(StudioWindow *window) {
     studio_time_strip_show(window->strip, window->document, studio_window_plant(window), selected);
     studio_light_mode_update(window->light);
     studio_scene_tool_update(window->scene);
+    studio_patch_mode_update(window->patch);
 }
 
 void studio_window_select(StudioWindow *window, uint32_t element) {
@@ -311,6 +312,7 @@ static void studio_window_dispose(GObject *object) {
     while (g_idle_remove_by_data(window)) {
     }
     g_clear_pointer(&window->light, studio_light_mode_free);
+    g_clear_pointer(&window->patch, studio_patch_mode_free);
     g_clear_pointer(&window->string, studio_string_panel_free);
     drop_document(window);
     g_clear_pointer(&window->selected, g_free);

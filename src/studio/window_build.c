@@ -66,6 +66,7 @@ static void take(StudioWindow *window, const StudioBuilt *built) {
     studio_inspector_set_diags(window->inspector, window->diags);
     studio_window_show_texts(window);
     studio_light_mode_update(window->light);
+    studio_patch_mode_update(window->patch);
 }
 
 void studio_window_collect(StudioWindow *window) {

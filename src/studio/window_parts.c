@@ -313,6 +313,7 @@ static GtkWidget *make_middle(StudioWindow *window) {
     GtkOverlay *overlay = GTK_OVERLAY(gtk_overlay_new());
     gtk_overlay_set_child(overlay, GTK_WIDGET(window->viewport));
     window->scene = studio_scene_tool_new(window, overlay);
+    window->patch = studio_patch_mode_new(window, overlay);
     window->amount = gtk_label_new("");
     gtk_widget_add_css_class(window->amount, "amount");
     gtk_widget_set_halign(window->amount, GTK_ALIGN_END); // below the modes: beside is no room

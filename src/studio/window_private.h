@@ -10,6 +10,7 @@
 #include "studio/model/commands.h"
 #include "studio/model/hand.h"
 #include "studio/model/place.h"
+#include "studio/patch_mode.h"
 #include "studio/picture.h"
 #include "studio/scene_tool.h"
 #include "studio/sketch_panel.h"
@@ -54,6 +55,7 @@ struct _StudioWindow {
     StudioLightMode *light;
     StudioSketchPanel *sketch;
     StudioSceneTool *scene;
+    StudioPatchMode *patch;
     GtkWidget *picked_bar, *picked_text;
     GtkWidget *amount, *problem, *problem_text, *busy, *busy_text, *busy_bar, *scale;
 };

@@ -71,6 +71,18 @@ BULBS = """<frond version="1">
 """
 
 
+PATCH = """<frond version="1">
+  <plant id="p">
+    <pgraph>
+      <hyperpatch id="patch" box-from="-0.2, -0.2, 0" box-to="0.2, 0.2, 0.6"/>
+      <simple id="block" primitive="cylinder" size="0.3, 0.3, 0.6" detail="24"/>
+      <link from="patch" to="block"/>
+    </pgraph>
+  </plant>
+</frond>
+"""
+
+
 GROVE = """<frond version="1">
   <plant id="tree">
     <species leaf-length="0.3" leaf-width="0.2"/>
@@ -562,6 +574,37 @@ def test_lamps(run):
     studio.ask("size 1440 900")
 
 
+def test_patch(run):
+    """control points of a Hyperpatch are dragged, mirrored and put back"""
+    studio = run.studio
+    file = os.path.join(run.home, "patch.frond")
+    with open(file, "w", encoding="utf-8") as out:
+        out.write(PATCH)
+    studio.ask(f"open {file}")
+    studio.ask("do select::patch")
+    studio.wait()
+    before = studio.state()
+    corner = studio.point(0.2, -0.2, 0.6)
+    studio.drag(corner, [corner[0] + 70, corner[1] - 50])
+    studio.wait()
+    run.picture("patch-dragged")
+    state = studio.state()
+    assert state["steps"] == 1 and state["problems"] == 0, state
+    assert 'points="2,0,2:' in studio.text(run.home)
+    studio.ask("do patch-reset")
+    studio.wait()
+    assert "points=" not in studio.text(run.home)
+    studio.pointer("keydown", "ctrl")
+    studio.drag(corner, [corner[0] + 60, corner[1] + 20])
+    studio.pointer("keyup", "ctrl")
+    studio.wait()
+    assert 'points="0,0,2:' in studio.text(run.home) and " 2,0,2:" in studio.text(run.home)
+    run.picture("patch-mirrored")
+    studio.undo_all()
+    studio.wait()
+    assert studio.state()["digest"] == before["digest"]
+
+
 def sketched(run):
     return json.loads(run.studio.ask("sketch"))
 
@@ -735,7 +778,7 @@ def test_killed(run):
 
 
 TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_rows,
-         test_light, test_lamps, test_sketch,
+         test_light, test_lamps, test_patch, test_sketch,
          test_device, test_flower, test_link, test_preset, test_slider, test_material, test_keys, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 

@@ -1,6 +1,7 @@
 #include "studio/model/builder.h"
 
 #include "studio/model/clocks.h"
+#include "studio/model/counts.h"
 #include "studio/model/grower.h"
 #include "studio/model/painter.h"
 #include "studio/model/picked.h"
@@ -44,6 +45,7 @@ struct StudioBuilder {
     gint fraction;        // atomic, in thousandths
     StudioGround *ground; // of the last build; NULL: level
     GArray *stands;       // StudioStand, of the last build
+    GArray *footings;     // StudioFooting, of the last build
     // Of the thread alone:
     StudioWatch watch; // NULL: nobody looks
     void *watcher;
@@ -65,12 +67,6 @@ static void request_free(Request *request) {
     }
 }
 
-static void count_clear(gpointer data) {
-    StudioCount *count = data;
-    g_free(count->plant);
-    g_free(count->component);
-}
-
 static void built_free(StudioBuilt *built) {
     if (built != NULL) {
         fr_diags_free(built->diags);
@@ -85,21 +81,6 @@ static void report(void *user, const char *stage, double fraction) {
     (void)stage;
     StudioBuilder *builder = user;
     g_atomic_int_set(&builder->fraction, (gint)(fraction * 1000));
-}
-
-static GArray *count_instances(const FrScene *scene) {
-    GArray *counts = g_array_new(FALSE, FALSE, sizeof(StudioCount));
-    g_array_set_clear_func(counts, count_clear);
-    for (guint p = 0; p < scene->plants->len; p++) {
-        const FrScenePlant *plant = &g_array_index(scene->plants, FrScenePlant, p);
-        for (guint c = 0; plant->by_component != NULL && c < plant->plant->components->len; c++) {
-            const FrComponent *component = &g_array_index(plant->plant->components, FrComponent, c);
-            StudioCount count = {g_strdup(plant->plant->name), g_strdup(component->id),
-                                 plant->by_component[c]};
-            g_array_append_val(counts, count);
-        }
-    }
-    return counts;
 }
 
 static double seconds_since(gint64 began) {
@@ -210,7 +191,7 @@ static FrStatus rebuild(StudioBuilder *builder, FrDocument *document, const FrCo
     return status;
 }
 
-// Tells the main thread of the ground, and where plants stand.
+// Tells the main thread of the ground, and where plants and what deforms them stand.
 static void hand_ground(StudioBuilder *builder, StudioGround *ground) {
     GArray *stands = g_array_new(FALSE, FALSE, sizeof(StudioStand));
     for (uint32_t i = 0; i < fr_scene_stand_count(builder->scene); i++) {
@@ -218,11 +199,14 @@ static void hand_ground(StudioBuilder *builder, StudioGround *ground) {
         StudioStand stand = {{from->at[0], from->at[1], from->at[2]}, from->origin, from->number};
         g_array_append_val(stands, stand);
     }
+    GArray *footings = studio_footings_of(builder->scene);
     g_mutex_lock(&builder->lock);
     studio_ground_unref(builder->ground);
     g_clear_pointer(&builder->stands, g_array_unref);
+    g_clear_pointer(&builder->footings, g_array_unref);
     builder->ground = ground;
     builder->stands = stands;
+    builder->footings = footings;
     g_mutex_unlock(&builder->lock);
 }
 
@@ -244,7 +228,7 @@ static FrStatus build(StudioBuilder *builder, const Request *request, const FrCo
     }
     built->times.build = seconds_since(began) - built->times.view;
     if (built->view != NULL) {
-        built->counts = count_instances(builder->view->scene);
+        built->counts = studio_counts_of(builder->view->scene);
         paint_looks(builder);
         hand_ground(builder, ground);
     } else {
@@ -364,6 +348,7 @@ void studio_builder_free(StudioBuilder *builder) {
     studio_view_free(builder->view);
     studio_ground_unref(builder->ground);
     g_clear_pointer(&builder->stands, g_array_unref);
+    g_clear_pointer(&builder->footings, g_array_unref);
     built_free(builder->built);
     request_free(builder->waiting);
     fr_rebuild_free(builder->rebuild);
@@ -506,6 +491,16 @@ GArray *studio_builder_stands(StudioBuilder *builder) {
                                              : g_array_new(FALSE, FALSE, sizeof(StudioStand));
     g_mutex_unlock(&builder->lock);
     return stands;
+}
+
+bool studio_builder_footing(StudioBuilder *builder, const char *plant, const char *component,
+                            StudioFooting *footing) {
+    g_mutex_lock(&builder->lock);
+    const StudioFooting *found = studio_footing_find(builder->footings, plant, component);
+    *footing = found == NULL ? (StudioFooting){0} : *found;
+    footing->plant = footing->component = NULL; // they are the builder's
+    g_mutex_unlock(&builder->lock);
+    return found != NULL;
 }
 
 bool studio_builder_bounds(StudioBuilder *builder, uint32_t origin, double min[3], double max[3]) {

@@ -5,7 +5,9 @@
 #pragma once
 
 #include "frond/growth.h"
+#include "studio/model/counts.h"
 #include "studio/model/ground.h"
+#include "studio/model/patch.h"
 #include "studio/model/view.h"
 
 typedef struct StudioBuilder StudioBuilder;
@@ -17,12 +19,6 @@ typedef void (*StudioWake)(void *user);
 typedef struct StudioTimes {
     double read, build, view;
 } StudioTimes;
-
-/// How many instances a component of a plant has.
-typedef struct StudioCount {
-    char *plant, *component;
-    uint64_t instances;
-} StudioCount;
 
 /// The outcome of a request.
 typedef struct StudioBuilt {
@@ -126,6 +122,9 @@ StudioHit studio_builder_hit(StudioBuilder *builder, const double origin[3],
                              const double direction[3], double spread);
 /// The ground of the last build, a reference; NULL: level, before the first.
 StudioGround *studio_builder_ground(StudioBuilder *builder);
+/// Where a component that deforms stands first, in the last build; false: nowhere.
+bool studio_builder_footing(StudioBuilder *builder, const char *plant, const char *component,
+                            StudioFooting *footing);
 /// The box around all that an element of the document has placed (its byte, as FrStand.origin).
 /// False: nothing, or a build runs.
 bool studio_builder_bounds(StudioBuilder *builder, uint32_t origin, double min[3], double max[3]);

@@ -135,6 +135,23 @@ double studio_camera_step(const StudioCamera *camera, double part) {
     return power * (rest >= 5 ? 5 : rest >= 2 ? 2 : 1);
 }
 
+bool studio_camera_meet(const StudioCamera *camera, double aspect, double x, double y,
+                        const double grip[3], double hit[3]) {
+    double origin[3], way[3], eye[3], steep = 0, ahead = 0;
+    studio_camera_ray(camera, aspect, x, y, origin, way);
+    studio_camera_eye(camera, eye);
+    for (int k = 0; k < 3; k++) {
+        double normal = camera->target[k] - eye[k];
+        steep += way[k] * normal;
+        ahead += (grip[k] - origin[k]) * normal;
+    }
+    double away = steep == 0 ? -1 : ahead / steep;
+    for (int k = 0; k < 3; k++) {
+        hit[k] = origin[k] + away * way[k];
+    }
+    return away > 0;
+}
+
 bool studio_camera_project(const StudioCamera *camera, double aspect, const double point[3],
                            double *x, double *y) {
     double right[3], up[3], back[3], eye[3], at[3] = {0, 0, 0};

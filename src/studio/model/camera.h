@@ -35,6 +35,10 @@ mat4s studio_camera_projection(const StudioCamera *camera, double aspect, double
 /// The ray through a point of the picture: x from −1 at the left to 1, y from −1 at the bottom.
 void studio_camera_ray(const StudioCamera *camera, double aspect, double x, double y,
                        double origin[3], double direction[3]);
+/// Where the ray through a point of the picture meets the plane through `grip` that faces the
+/// camera. False: behind it.
+bool studio_camera_meet(const StudioCamera *camera, double aspect, double x, double y,
+                        const double grip[3], double hit[3]);
 /// Where a point is in the picture, as in studio_camera_ray(). False: it is not before the camera.
 bool studio_camera_project(const StudioCamera *camera, double aspect, const double point[3],
                            double *x, double *y);

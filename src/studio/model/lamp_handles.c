@@ -95,23 +95,6 @@ StudioHandle studio_handle_at(const StudioDocument *document, uint32_t selected,
 
 // ---- dragging ----------------------------------------------------------------------------------
 
-// Where the ray through the pointer meets the plane through the grip that faces the camera.
-static bool meet_plane(const StudioHandle *handle, const StudioCamera *camera,
-                       const double origin[3], const double way[3], double hit[3]) {
-    double normal[3], eye[3], to_grip[3];
-    studio_camera_eye(camera, eye);
-    for (int i = 0; i < 3; i++) {
-        normal[i] = camera->target[i] - eye[i];
-        to_grip[i] = handle->grip[i] - origin[i];
-    }
-    double steep = dot(way, normal);
-    double away = steep == 0 ? -1 : dot(to_grip, normal) / steep;
-    for (int i = 0; i < 3; i++) {
-        hit[i] = origin[i] + away * way[i];
-    }
-    return away > 0;
-}
-
 // How far along an axis through the grip the ray comes nearest to it.
 static bool meet_axis(const StudioHandle *handle, int axis, const double origin[3],
                       const double way[3], double *along) {
@@ -130,7 +113,7 @@ static bool dragged_to(const StudioHandle *handle, const StudioCamera *camera, d
     studio_camera_ray(camera, aspect, x, y, origin, way);
     memcpy(at, handle->begin, sizeof hit);
     if (handle->kind == STUDIO_HANDLE_PLACE || handle->kind == STUDIO_HANDLE_AIM) {
-        if (!meet_plane(handle, camera, origin, way, hit)) {
+        if (!studio_camera_meet(camera, aspect, x, y, handle->grip, hit)) {
             return false;
         }
         for (int i = 0; i < 3; i++) {
