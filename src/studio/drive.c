@@ -168,6 +168,13 @@ static void pointed(Drive *drive, char *const *words, const char *rest) {
     g_free(text);
 }
 
+static void said(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    const AdwToast *toast = drive->window->toast;
+    answer("%s", toast == NULL ? "nothing" : adw_toast_get_title((AdwToast *)toast));
+}
+
 static gboolean on_wait(gpointer data) {
     Drive *drive = data;
     drive->settled = studio_window_is_idle(drive->window) ? drive->settled + 1 : 0;
@@ -389,6 +396,7 @@ static const struct {
     {"state", state, 1, false},
     {"sketch", sketch, 1, false},
     {"pointed", pointed, 1, false},
+    {"said", said, 1, false},
     {"focus", focus, 1, false},
     {"keep", keep, 1, false},
     {"restore", restore, 1, false},

@@ -37,8 +37,8 @@ static void on_begin(GtkGestureDrag *gesture, double x, double y, StudioSceneToo
     GdkModifierType state =
         gtk_event_controller_get_current_event_state(GTK_EVENT_CONTROLLER(gesture));
     tool->held = can_edit(tool) ? handle_at(tool, pixel) : STUDIO_GRIP_NONE;
-    bool is_ours = can_edit(tool) && (state & GDK_SHIFT_MASK) == 0 &&
-                   (tool->held != STUDIO_GRIP_NONE || draws(tool));
+    bool is_ours = tool->held != STUDIO_GRIP_NONE ||
+                   (can_edit(tool) && (state & GDK_SHIFT_MASK) == 0 && draws(tool));
     if (!is_ours) {
         tool->held = STUDIO_GRIP_NONE;
         gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_DENIED);
@@ -47,6 +47,7 @@ static void on_begin(GtkGestureDrag *gesture, double x, double y, StudioSceneToo
     gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
     gtk_widget_grab_focus(GTK_WIDGET(tool->window->viewport));
     tool->is_drawing = true;
+    tool->is_copy_due = (state & GDK_ALT_MASK) != 0;
     studio_scene_stroke_begin(tool, pixel);
 }
 
@@ -58,6 +59,7 @@ static void on_update(GtkGestureDrag *gesture, double x, double y, StudioSceneTo
     GdkModifierType state =
         gtk_event_controller_get_current_event_state(GTK_EVENT_CONTROLLER(gesture));
     tool->is_stepped = (state & GDK_CONTROL_MASK) != 0;
+    tool->is_straight = (state & GDK_SHIFT_MASK) != 0;
     const double pixel[2] = {from_x + x, from_y + y};
     memcpy(tool->hover, pixel, sizeof tool->hover);
     studio_scene_stroke_go(tool, pixel);

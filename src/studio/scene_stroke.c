@@ -16,6 +16,26 @@ static bool grows(const StudioSceneTool *tool) {
 
 // ---- handles -----------------------------------------------------------------------------------
 
+// Along the one axis that it went farther on.
+static void keep_straight(const StudioStanding *from, StudioStanding *to) {
+    int axis = fabs(to->at[0] - from->at[0]) < fabs(to->at[1] - from->at[1]) ? 0 : 1;
+    to->at[axis] = from->at[axis];
+}
+
+// What is dragged from here on is a copy, and the first one stays.
+static void copy(StudioSceneTool *tool) {
+    StudioWindow *window = tool->window;
+    uint32_t made = studio_copy(window->document, studio_window_selected(window), tool->key);
+    tool->is_copy_due = false;
+    if (made == FR_NONE) {
+        studio_window_say(window, "This cannot be copied");
+        return;
+    }
+    StudioGrip held = tool->held;
+    studio_window_select(window, made);
+    tool->held = held;
+}
+
 static void drag_handle(StudioSceneTool *tool, const double pixel[2], bool is_stepped) {
     StudioWindow *window = tool->window;
     StudioEye eye = studio_scene_eye(tool);
@@ -24,6 +44,12 @@ static void drag_handle(StudioSceneTool *tool, const double pixel[2], bool is_st
     StudioStanding to = studio_gizmo_drag(&eye, ground, tool->held, &tool->grabbed, tool->begin,
                                           pixel, step, is_stepped ? 15 : 1);
     studio_ground_unref(ground);
+    if (tool->is_straight && tool->held == STUDIO_GRIP_GROUND) {
+        keep_straight(&tool->grabbed, &to);
+    }
+    if (tool->is_copy_due) {
+        copy(tool);
+    }
     tool->standing = to;
     gtk_widget_queue_draw(tool->layer);
     // What grows bud by bud would begin anew with every pixel: it does when the handle is let go.

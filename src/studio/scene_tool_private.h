@@ -49,8 +49,10 @@ struct StudioSceneTool {
     StudioStanding standing;
     StudioGrip over, held;
     StudioStanding grabbed, written;
-    double begin[2]; ///< of a drag
-    bool is_stepped; ///< Ctrl is down
+    double begin[2];  ///< of a drag
+    bool is_stepped;  ///< Ctrl is down
+    bool is_straight; ///< Shift is down
+    bool is_copy_due; ///< Alt was down when the drag began, and nothing has been copied yet
 
     char *key; ///< of the stroke, for undo
     uint64_t strokes, dabs;

@@ -1,14 +1,149 @@
 #include "studio/things_panel.h"
 
-#include "studio/accessible.h"
-
 #include <string.h>
 
 enum { INDENT = 16 };
 
+// What a row says.
+typedef struct Thing {
+    char *name;
+    const char *kind; // a tag; NULL: that is its name
+    guint depth;
+} Thing;
+
+// ---- the list ----------------------------------------------------------------------------------
+
+// Only the rows that are seen have widgets, and only those that change are made anew: a document
+// may place thousands of plants.
+#define STUDIO_TYPE_THINGS (studio_things_get_type())
+G_DECLARE_FINAL_TYPE(StudioThings, studio_things, STUDIO, THINGS, GObject)
+
+struct _StudioThings {
+    GObject parent;
+    GArray *things; // Thing, of element 1 and those behind it
+};
+
+static GType things_item_type(GListModel *model) {
+    (void)model;
+    return G_TYPE_OBJECT;
+}
+
+static guint things_count(GListModel *model) {
+    return STUDIO_THINGS(model)->things->len;
+}
+
+// A row knows what it shows by its position.
+static gpointer things_item(GListModel *model, guint position) {
+    return position < things_count(model) ? g_object_new(G_TYPE_OBJECT, NULL) : NULL;
+}
+
+static void things_model_init(GListModelInterface *interface) {
+    interface->get_item_type = things_item_type;
+    interface->get_n_items = things_count;
+    interface->get_item = things_item;
+}
+
+G_DEFINE_TYPE_WITH_CODE(StudioThings, studio_things, G_TYPE_OBJECT,
+                        G_IMPLEMENT_INTERFACE(G_TYPE_LIST_MODEL, things_model_init))
+
+static void clear_thing(gpointer data) {
+    g_free(((Thing *)data)->name);
+}
+
+static GArray *new_things(void) {
+    GArray *things = g_array_new(FALSE, FALSE, sizeof(Thing));
+    g_array_set_clear_func(things, clear_thing);
+    return things;
+}
+
+static void studio_things_finalize(GObject *object) {
+    g_array_unref(STUDIO_THINGS(object)->things);
+    G_OBJECT_CLASS(studio_things_parent_class)->finalize(object);
+}
+
+static void studio_things_class_init(StudioThingsClass *class) {
+    G_OBJECT_CLASS(class)->finalize = studio_things_finalize;
+}
+
+static void studio_things_init(StudioThings *list) {
+    list->things = new_things();
+}
+
+static bool is_same(const GArray *a, guint i, const GArray *b, guint k) {
+    const Thing *one = &g_array_index(a, Thing, i), *other = &g_array_index(b, Thing, k);
+    return one->depth == other->depth && g_strcmp0(one->kind, other->kind) == 0 &&
+           strcmp(one->name, other->name) == 0;
+}
+
+// Takes other things; what is the same before and behind the change stays as it is.
+static void set_things(StudioThings *list, GArray *things) {
+    GArray *old = list->things;
+    guint first = 0, last = 0, both = MIN(old->len, things->len);
+    while (first < both && is_same(old, first, things, first)) {
+        first++;
+    }
+    while (last < both - first &&
+           is_same(old, old->len - 1 - last, things, things->len - 1 - last)) {
+        last++;
+    }
+    list->things = things;
+    guint removed = old->len - first - last, added = things->len - first - last;
+    if (removed > 0 || added > 0) {
+        g_list_model_items_changed(G_LIST_MODEL(list), first, removed, added);
+    }
+    g_array_unref(old);
+}
+
+// ---- reading -----------------------------------------------------------------------------------
+
+static char *called(const FrContents *contents, uint32_t element) {
+    static const char *const telling[][2] = {
+        {"edit", "at"},   {"place", "plant"},  {"row", "plants"},
+        {"view", "name"}, {"strew", "plants"}, {"obstacle", "shape"},
+    };
+    const FrContentsElement *at = fr_contents_at(contents, element);
+    if (at->id != NULL) {
+        return g_strdup(at->id);
+    }
+    if (strcmp(at->name, "link") == 0) {
+        char *from = fr_contents_get(contents, element, "from");
+        char *to = fr_contents_get(contents, element, "to");
+        char *both = g_strdup_printf("%s → %s", from, to);
+        g_free(from);
+        g_free(to);
+        return both;
+    }
+    for (size_t i = 0; i < G_N_ELEMENTS(telling); i++) {
+        if (strcmp(at->name, telling[i][0]) == 0) {
+            return fr_contents_get(contents, element, telling[i][1]);
+        }
+    }
+    return NULL;
+}
+
+static GArray *read_things(const FrContents *contents) {
+    GArray *things = new_things();
+    guint *depths = g_new0(guint, fr_contents_count(contents));
+    for (uint32_t i = 1; i < fr_contents_count(contents); i++) {
+        const FrContentsElement *at = fr_contents_at(contents, i);
+        const char *tag = g_intern_string(at->name);
+        char *name = called(contents, i);
+        depths[i] = depths[at->parent] + 1; // which comes before it
+        Thing thing = {name != NULL ? name : g_strdup(tag), name != NULL ? tag : NULL,
+                       depths[i] - 1};
+        g_array_append_val(things, thing);
+    }
+    g_free(depths);
+    return things;
+}
+
+// ---- the panel ---------------------------------------------------------------------------------
+
 struct _StudioThingsPanel {
     GtkBox parent;
     GtkWidget *list;
+    StudioThings *things;
+    GtkSingleSelection *selection;
     uint64_t revision; // of what is listed
     const StudioDocument *document;
     gboolean is_showing;
@@ -18,94 +153,59 @@ static guint selected_signal;
 
 G_DEFINE_TYPE(StudioThingsPanel, studio_things_panel, GTK_TYPE_BOX)
 
-static const char key[] = "studio-element";
-
-static void on_row(GtkListBox *list, GtkListBoxRow *row, StudioThingsPanel *panel) {
-    (void)list;
-    if (row != NULL && !panel->is_showing) {
-        g_signal_emit(panel, selected_signal, 0,
-                      GPOINTER_TO_UINT(g_object_get_data(G_OBJECT(row), key)));
+static void on_selected(GtkSingleSelection *selection, GParamSpec *spec, StudioThingsPanel *panel) {
+    (void)spec;
+    guint position = gtk_single_selection_get_selected(selection);
+    if (position != GTK_INVALID_LIST_POSITION && !panel->is_showing) {
+        g_signal_emit(panel, selected_signal, 0, position + 1);
     }
 }
 
-static guint depth_of(const FrContents *contents, uint32_t element) {
-    guint depth = 0;
-    for (uint32_t i = fr_contents_at(contents, element)->parent; i != FR_NONE;
-         i = fr_contents_at(contents, i)->parent) {
-        depth++;
-    }
-    return depth;
-}
-
-static GtkWidget *make_row(const FrContents *contents, uint32_t element) {
-    const FrContentsElement *at = fr_contents_at(contents, element);
+static void on_setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data) {
+    (void)factory;
+    (void)data;
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
-    gtk_widget_set_margin_start(box, (int)((depth_of(contents, element) - 1) * INDENT + 4));
-    char *called = g_strdup(at->id);
-    if (called == NULL && strcmp(at->name, "link") == 0) {
-        char *from = fr_contents_get(contents, element, "from");
-        char *to = fr_contents_get(contents, element, "to");
-        called = g_strdup_printf("%s → %s", from, to);
-        g_free(from);
-        g_free(to);
-    }
-    static const char *const telling[][2] = {
-        {"edit", "at"},   {"place", "plant"},  {"row", "plants"},
-        {"view", "name"}, {"strew", "plants"}, {"obstacle", "shape"},
-    };
-    for (size_t i = 0; called == NULL && i < G_N_ELEMENTS(telling); i++) {
-        if (strcmp(at->name, telling[i][0]) == 0) {
-            called = fr_contents_get(contents, element, telling[i][1]);
-        }
-    }
-    GtkWidget *name = gtk_label_new(called != NULL ? called : at->name);
+    GtkWidget *name = gtk_label_new(NULL), *kind = gtk_label_new(NULL);
     gtk_label_set_xalign(GTK_LABEL(name), 0);
     gtk_label_set_ellipsize(GTK_LABEL(name), PANGO_ELLIPSIZE_END);
     gtk_widget_set_hexpand(name, TRUE);
+    gtk_widget_add_css_class(kind, "dim-label");
+    gtk_widget_add_css_class(kind, "caption");
     gtk_box_append(GTK_BOX(box), name);
-    if (called != NULL) {
-        GtkWidget *kind = gtk_label_new(at->name);
-        gtk_widget_add_css_class(kind, "dim-label");
-        gtk_widget_add_css_class(kind, "caption");
-        gtk_box_append(GTK_BOX(box), kind);
-    }
-    GtkWidget *row = gtk_list_box_row_new();
-    gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(row), box);
-    g_object_set_data(G_OBJECT(row), key, GUINT_TO_POINTER(element));
-    char *said = called == NULL ? g_strdup(at->name) : g_strdup_printf("%s, %s", called, at->name);
-    studio_name(row, said);
-    g_free(said);
-    g_free(called);
-    return row;
+    gtk_box_append(GTK_BOX(box), kind);
+    gtk_list_item_set_child(item, box);
 }
 
-static void fill(StudioThingsPanel *panel, const FrContents *contents) {
-    GtkWidget *child;
-    while ((child = gtk_widget_get_first_child(panel->list)) != NULL) {
-        gtk_list_box_remove(GTK_LIST_BOX(panel->list), child);
-    }
-    for (uint32_t i = 1; i < fr_contents_count(contents); i++) {
-        gtk_list_box_append(GTK_LIST_BOX(panel->list), make_row(contents, i));
-    }
+static void on_bind(GtkSignalListItemFactory *factory, GtkListItem *item,
+                    StudioThingsPanel *panel) {
+    (void)factory;
+    const Thing *thing =
+        &g_array_index(panel->things->things, Thing, gtk_list_item_get_position(item));
+    GtkWidget *box = gtk_list_item_get_child(item);
+    GtkWidget *name = gtk_widget_get_first_child(box), *kind = gtk_widget_get_last_child(box);
+    gtk_widget_set_margin_start(box, (int)(thing->depth * INDENT + 4));
+    gtk_label_set_text(GTK_LABEL(name), thing->name);
+    gtk_label_set_text(GTK_LABEL(kind), thing->kind);
+    gtk_widget_set_visible(kind, thing->kind != NULL);
+    gtk_accessible_update_property(GTK_ACCESSIBLE(gtk_widget_get_parent(box)),
+                                   GTK_ACCESSIBLE_PROPERTY_LABEL, thing->name, -1);
 }
 
 void studio_things_panel_show(StudioThingsPanel *panel, StudioDocument *document,
                               uint32_t selected) {
-    const FrContents *contents = studio_document_contents(document);
     panel->is_showing = TRUE;
     if (panel->document != document || panel->revision != studio_document_revision(document)) {
-        fill(panel, contents);
+        set_things(panel->things, read_things(studio_document_contents(document)));
         panel->document = document;
         panel->revision = studio_document_revision(document);
     }
-    GtkListBoxRow *row =
-        selected == FR_NONE || selected == 0
-            ? NULL
-            : gtk_list_box_get_row_at_index(GTK_LIST_BOX(panel->list), (int)selected - 1);
-    if (row != NULL) {
-        gtk_list_box_select_row(GTK_LIST_BOX(panel->list), row);
-    } else {
-        gtk_list_box_unselect_all(GTK_LIST_BOX(panel->list));
+    guint position =
+        selected == FR_NONE || selected == 0 ? GTK_INVALID_LIST_POSITION : selected - 1;
+    if (position != gtk_single_selection_get_selected(panel->selection)) {
+        gtk_single_selection_set_selected(panel->selection, position);
+        if (position != GTK_INVALID_LIST_POSITION) {
+            gtk_widget_activate_action(panel->list, "list.scroll-to-item", "u", position);
+        }
     }
     panel->is_showing = FALSE;
 }
@@ -116,10 +216,20 @@ static void studio_things_panel_class_init(StudioThingsPanelClass *class) {
 }
 
 static void studio_things_panel_init(StudioThingsPanel *panel) {
-    panel->list = gtk_list_box_new();
+    panel->things = g_object_new(STUDIO_TYPE_THINGS, NULL);
+    panel->selection = gtk_single_selection_new(G_LIST_MODEL(panel->things));
+    gtk_single_selection_set_autoselect(panel->selection, FALSE);
+    gtk_single_selection_set_can_unselect(panel->selection, TRUE);
+    gtk_single_selection_set_selected(panel->selection, GTK_INVALID_LIST_POSITION);
+    GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+    g_signal_connect(factory, "setup", G_CALLBACK(on_setup), NULL);
+    g_signal_connect(factory, "bind", G_CALLBACK(on_bind), panel);
+    panel->list = gtk_list_view_new(GTK_SELECTION_MODEL(panel->selection), factory);
     gtk_widget_add_css_class(panel->list, "navigation-sidebar");
-    studio_name(panel->list, "Contents of the document");
-    g_signal_connect(panel->list, "row-selected", G_CALLBACK(on_row), panel);
+    gtk_widget_set_name(panel->list, "things");
+    gtk_accessible_update_property(GTK_ACCESSIBLE(panel->list), GTK_ACCESSIBLE_PROPERTY_LABEL,
+                                   "Contents of the document", -1);
+    g_signal_connect(panel->selection, "notify::selected", G_CALLBACK(on_selected), panel);
     GtkWidget *scrolled = gtk_scrolled_window_new();
     gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scrolled), panel->list);
     gtk_widget_set_vexpand(scrolled, TRUE);

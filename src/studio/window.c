@@ -18,6 +18,10 @@ void studio_window_say(StudioWindow *window, const char *format, ...) {
     char *escaped = g_markup_escape_text(text, -1);
     AdwToast *toast = adw_toast_new(escaped);
     adw_toast_set_timeout(toast, 4);
+    if (window->toast != NULL) { // the newest is shown at once, and what is said again only once
+        adw_toast_dismiss(window->toast);
+    }
+    g_set_weak_pointer(&window->toast, toast);
     adw_toast_overlay_add_toast(window->toasts, toast);
     g_free(escaped);
     g_free(text);
@@ -304,6 +308,7 @@ static void studio_window_dispose(GObject *object) {
         window->settings = NULL;
     }
     g_clear_handle_id(&window->autosave, g_source_remove);
+    g_clear_weak_pointer(&window->toast);
     g_clear_handle_id(&window->progress, g_source_remove);
     if (window->builder != NULL) {
         studio_swatches_set_builder(studio_inspector_swatches(window->inspector), NULL);

@@ -42,6 +42,7 @@ struct _StudioWindow {
     GtkWidget *stack; ///< "welcome", "document"
     AdwWindowTitle *title;
     AdwToastOverlay *toasts;
+    AdwToast *toast;          ///< shown last; NULL: it has gone
     GtkWidget *outer, *inner; ///< panes
     GtkWidget *undo, *redo, *save_button, *welcome_hidden[5];
     StudioViewport *viewport;

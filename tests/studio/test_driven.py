@@ -7,7 +7,6 @@ import re
 import shutil
 import sys
 import tempfile
-import time
 
 import studio_driver as driver
 
@@ -261,6 +260,25 @@ def test_rows(run):
     studio.wait()
     assert studio.text(run.home).count("except=") == 2 and studio.state()["steps"] == 4
     run.picture("rows-brushed")
+    studio.ask("do scene-tool::move")
+    studio.click(studio.point(2.5, -1.5, 0.8))
+    studio.wait()
+    for key, end in (("alt", (4, -2, 0)), ("shift", (6, -3, 0))):
+        begin = (2.5, -1.5, 0) if key == "alt" else (4, -2, 0)
+        studio.pointer("keydown", key)
+        studio.drag(studio.point(*begin), studio.point(*end))
+        studio.pointer("keyup", key)
+        studio.wait()
+    text = studio.text(run.home)
+    assert 'at="2.5, -1.5, 0"' in text and text.count("<place") == 2, text
+    assert text.count(', -2, 0" seed=') == 1, text
+    assert studio.state()["steps"] == 6, studio.state()
+    studio.ask("do save-to('/proc/nowhere.frond')")
+    assert "nowhere" in studio.ask("said"), studio.ask("said")
+    studio.ask("do leave-one-out")
+    studio.ask("do take-one")
+    assert studio.ask("said").startswith("Click a plant of a row"), studio.ask("said")
+    run.picture("rows-said")
     studio.ask("do scene-tool::select")
     studio.undo_all()
     studio.wait()

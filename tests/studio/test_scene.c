@@ -45,6 +45,32 @@ static void test_species(void) {
     studio_document_free(document);
 }
 
+static void test_copy(void) {
+    static const char text[] =
+        STEM "  <scene>\n    <place plant=\"stem\" at=\"1, 0, 0\" seed=\"3\"/>\n"
+             "    <row plants=\"stem\">0,0,0 1,0,0</row>\n    <lamp id=\"bulb\"/>\n"
+             "  </scene>\n</frond>\n";
+    StudioDocument *document = document_of(text);
+    uint32_t place = studio_scene_last(document, "place");
+    uint32_t made = studio_copy(document, place, "drag");
+    g_assert_cmpuint(made, ==, place + 1);
+    StudioStanding from, to;
+    g_assert_true(studio_standing_read(document, made, &from));
+    to = from;
+    to.at[1] = 4;
+    g_assert_true(studio_standing_move(document, made, &from, &to, "drag"));
+    g_assert_nonnull(strstr(text_of(document),
+                            "    <place plant=\"stem\" at=\"1, 0, 0\" seed=\"3\"/>\n"
+                            "    <place plant=\"stem\" at=\"1, 4, 0\" seed=\"3\"/>\n"));
+    g_assert_cmpuint(studio_document_steps(document), ==, 1);
+    g_assert_cmpuint(studio_copy(document, studio_scene_last(document, "row"), NULL), !=, FR_NONE);
+    g_assert_cmpuint(studio_copy(document, studio_scene_last(document, "lamp"), NULL), ==, FR_NONE);
+    g_assert_cmpuint(studio_copy(document, first_plant(document), NULL), ==, FR_NONE);
+    g_assert_true(studio_document_undo(document) && studio_document_undo(document));
+    g_assert_cmpstr(text_of(document), ==, text);
+    studio_document_free(document);
+}
+
 static void test_stroke(void) {
     StudioDocument *document = document_of(STEM "</frond>\n");
     for (int i = 0; i < 5; i++) {
@@ -424,6 +450,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/scene/the parts of a road keep together", test_road);
     g_test_add_func("/studio/scene/an envelope is drawn from either end", test_envelope);
     g_test_add_func("/studio/scene/things are set down near what is seen", test_reach);
+    g_test_add_func("/studio/scene/a copy is moved and the first one stays", test_copy);
     g_test_add_func("/studio/scene/a view is kept under its name and seen again", test_view);
     g_test_add_func("/studio/scene/a point is seen where its ray goes", test_project);
     g_test_add_func("/studio/scene/arrows move along their axes", test_handles);

@@ -28,6 +28,27 @@ char *studio_place_of(const FrContents *contents, uint32_t element) {
     return place;
 }
 
+// The element of that step among siblings from one on, FR_NONE.
+static uint32_t find_step(const FrContents *contents, uint32_t first, const char *step) {
+    size_t length = strcspn(step, ":#");
+    const char *id = step[length] == ':' ? step + length + 1 : NULL;
+    guint64 number = step[length] == '#' ? g_ascii_strtoull(step + length + 1, NULL, 10) : 0;
+    for (uint32_t i = first; i != FR_NONE; i = fr_contents_at(contents, i)->next) {
+        const FrContentsElement *at = fr_contents_at(contents, i);
+        if (strncmp(at->name, step, length) != 0 || at->name[length] != '\0') {
+            continue;
+        }
+        bool is_it = id != NULL ? g_strcmp0(at->id, id) == 0 : number == 0 && at->id == NULL;
+        if (is_it) {
+            return i;
+        }
+        if (id == NULL && number-- == 0) { // that one has an id now
+            return FR_NONE;
+        }
+    }
+    return FR_NONE;
+}
+
 uint32_t studio_place_find(const FrContents *contents, const char *place) {
     if (contents == NULL || place == NULL) {
         return FR_NONE;
@@ -35,13 +56,7 @@ uint32_t studio_place_find(const FrContents *contents, const char *place) {
     char **steps = g_strsplit(place, "/", -1);
     uint32_t found = FR_NONE, among = 0;
     for (char **step = steps; *step != NULL; step++) {
-        found = FR_NONE;
-        for (uint32_t i = among; i != FR_NONE && found == FR_NONE;
-             i = fr_contents_at(contents, i)->next) {
-            char *own = step_of(contents, i);
-            found = strcmp(own, *step) == 0 ? i : FR_NONE;
-            g_free(own);
-        }
+        found = find_step(contents, among, *step);
         if (found == FR_NONE) {
             break;
         }

@@ -150,6 +150,23 @@ bool studio_place_first(StudioDocument *document) {
     return is_changed;
 }
 
+uint32_t studio_copy(StudioDocument *document, uint32_t element, const char *key) {
+    const FrContents *contents = contents_of(document);
+    if (element == FR_NONE || contents == NULL ||
+        fr_contents_at(contents, element)->parent != scene_of(document) ||
+        fr_contents_at(contents, element)->id != NULL ||
+        studio_standing_twin(document, element) != FR_NONE) {
+        return FR_NONE;
+    }
+    const FrContentsElement *at = fr_contents_at(contents, element);
+    const char *text = fr_source_text(fr_contents_source(contents), NULL);
+    char *xml = g_strndup(text + at->begin, at->end - at->begin);
+    FrSplice splice = fr_contents_insert(contents, at->parent, element, xml);
+    bool is_changed = studio_document_splice_one(document, splice, "Copy", key);
+    g_free(xml);
+    return is_changed ? fr_contents_at(contents_of(document), element)->next : FR_NONE;
+}
+
 bool studio_take_out(StudioDocument *document, const uint32_t *elements, size_t count,
                      const char *key) {
     GArray *splices = g_array_new(FALSE, FALSE, sizeof(FrSplice));

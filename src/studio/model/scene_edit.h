@@ -33,6 +33,9 @@ bool studio_plant(StudioDocument *document, const char *plant, const StudioSpot 
                   size_t count, const char *key);
 /// Places what is shown at the origin because nothing is placed.
 bool studio_place_first(StudioDocument *document);
+/// Puts a copy of an element of the scene behind it, of no road and nothing that has an id. The
+/// copy; FR_NONE: nothing changed.
+uint32_t studio_copy(StudioDocument *document, uint32_t element, const char *key);
 /// Takes elements of the scene out; of a road both of its parts.
 bool studio_take_out(StudioDocument *document, const uint32_t *elements, size_t count,
                      const char *key);
