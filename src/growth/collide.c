@@ -165,13 +165,17 @@ static inline bool segment_blocks(const Asked *asked) {
     return false;
 }
 
+bool fr_growth_tip(const FrGrowth *growth, const FrProposal *proposal, FrCell *tip) {
+    double end[3];
+    world_of(&growth->plants[proposal->plant], proposal->at, end);
+    return fr_voxels_cell(growth->voxels, end, tip);
+}
+
 bool fr_growth_is_free(const FrGrowth *growth, FrProposal *proposal, FrCell *cells) {
     const FrGrownPlant *plant = &growth->plants[proposal->plant];
     const Asked asked = {growth, proposal, cells, IS_STANDING};
-    double end[3];
     FrCell tip;
-    world_of(plant, proposal->at, end);
-    if (!fr_voxels_cell(growth->voxels, end, &tip) || box_blocks(&asked, tip)) {
+    if (!fr_growth_tip(growth, proposal, &tip) || box_blocks(&asked, tip)) {
         return false;
     }
     proposal->cell_count =

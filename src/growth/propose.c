@@ -35,20 +35,28 @@ static bool is_in_envelope(const FrGrowth *growth, const FrGrownPlant *plant, co
 
 // ---- proposing --------------------------------------------------------------------------------
 
-/// Finds a free way and its cells, or says that there is none.
-static void propose(const FrGrowth *growth, uint32_t index, bool is_again, FrCell *cells) {
-    FrProposal *proposal = &growth->proposals[index];
+/// Where a proposal wants to go, by trial.
+static void aim(const FrGrowth *growth, FrProposal *proposal, uint32_t trial) {
+    const FrGrownPlant *plant = &growth->plants[proposal->plant];
+    const FrLiveBud *bud = &plant->buds[proposal->bud];
+    proposal->direction = fr_growth_direction(growth, plant, bud, trial);
+    proposal->at =
+        glms_vec3_add(bud_at(plant, bud), glms_vec3_scale(proposal->direction, bud->length));
+}
+
+/// Finds a free way and its cells, or says that there is none. It aims already by the first trial.
+static void propose(const FrGrowth *growth, FrProposal *proposal, bool is_again, FrCell *cells) {
     const FrGrownPlant *plant = &growth->plants[proposal->plant];
     const FrReadySpecies *species = fr_species_of(growth, plant);
     const FrLiveBud *bud = &plant->buds[proposal->bud];
-    vec3s from = bud_at(plant, bud);
     uint32_t trials = (uint32_t)species->params.trials;
     // Whoever has lost looks beside what the winner has taken; the wanted way may still be free.
     for (uint32_t trial = 0; trial < trials + is_again; trial++) {
-        proposal->direction = fr_growth_direction(growth, plant, bud, trial);
-        proposal->at = glms_vec3_add(from, glms_vec3_scale(proposal->direction, bud->length));
+        if (trial > 0) {
+            aim(growth, proposal, trial);
+        }
         if (is_in_arena(growth, plant, proposal->at) &&
-            is_in_envelope(growth, plant, bud, from, proposal->at) &&
+            is_in_envelope(growth, plant, bud, bud_at(plant, bud), proposal->at) &&
             (!species->params.collide || fr_growth_is_free(growth, proposal, cells))) {
             proposal->state = species->params.collide ? FR_PROPOSAL_ASKS : FR_PROPOSAL_WON;
             return;
@@ -57,13 +65,71 @@ static void propose(const FrGrowth *growth, uint32_t index, bool is_again, FrCel
     proposal->state = FR_PROPOSAL_BLOCKED;
 }
 
-enum { AHEAD = 8 };
-
 typedef struct Round {
     FrGrowth *growth;
     uint32_t *open; ///< proposals still to be settled
     bool is_again;
 } Round;
+
+static FrProposal *proposal_at(const Round *round, size_t i) {
+    return &round->growth->proposals[round->open[i]];
+}
+
+// ---- memory -----------------------------------------------------------------------------------
+// Proposals are served a few at a time: the memory of one is brought while the others are served.
+
+enum { AHEAD = 8, TOGETHER = 32 };
+
+typedef FrCell Cells[FR_WALK_CELLS];
+
+/// Has the memory brought that tells what stands where a proposal aims.
+static void fetch_tip(const FrGrowth *growth, const FrProposal *proposal) {
+    FrCell tip;
+    FrBrick *brick = NULL;
+    if (fr_growth_tip(growth, proposal, &tip)) {
+        brick = fr_voxels_brick(growth->voxels, tip);
+    }
+    if (brick != NULL) {
+        __builtin_prefetch(brick->taken);
+        __builtin_prefetch(&brick->owners);
+    }
+}
+
+/// Has the owners of a segment's cells brought.
+static void fetch(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
+    FrBrick *brick = NULL;
+    for (uint32_t k = 1; k < proposal->cell_count; k++) {
+        brick = fr_voxels_next_brick(growth->voxels, cells, k, brick);
+        uint32_t *owners = brick == NULL ? NULL : __atomic_load_n(&brick->owners, __ATOMIC_ACQUIRE);
+        if (owners != NULL) {
+            unsigned layer = (unsigned)cells[k].at[2] & 7;
+            __builtin_prefetch(&owners[fr_voxels_slot(layer, fr_voxels_bit(cells[k]))], 1);
+        }
+    }
+}
+
+/// Half of what is done for a proposal that asks.
+typedef void (*Half)(const Round *round, FrProposal *proposal, FrCell *cells);
+
+/// The cells of a segment, and their owners brought.
+static void look_up(const Round *round, FrProposal *proposal, FrCell *cells) {
+    fr_path_cells(round->growth, proposal, cells);
+    fetch(round->growth, proposal, cells);
+}
+
+static inline void serve(const Round *round, size_t begin, size_t end, Half first, Half second) {
+    Cells cells[AHEAD];
+    for (size_t i = begin; i < end + AHEAD; i++) {
+        FrProposal *last = i < begin + AHEAD ? NULL : proposal_at(round, i - AHEAD);
+        if (last != NULL && last->state == FR_PROPOSAL_ASKS) {
+            second(round, last, cells[i % AHEAD]);
+        }
+        FrProposal *next = i < end ? proposal_at(round, i) : NULL;
+        if (next != NULL && next->state == FR_PROPOSAL_ASKS) {
+            first(round, next, cells[i % AHEAD]);
+        }
+    }
+}
 
 // ---- claiming ---------------------------------------------------------------------------------
 
@@ -99,55 +165,42 @@ static void claim(const FrGrowth *growth, const FrProposal *proposal, const FrCe
     }
 }
 
-/// Has the memory brought that a claim will write: it comes while others look for their ways.
-static void fetch(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
-    FrBrick *brick = NULL;
-    for (uint32_t k = 1; k < proposal->cell_count; k++) {
-        brick = fr_voxels_next_brick(growth->voxels, cells, k, brick);
-        uint32_t *owners = brick == NULL ? NULL : __atomic_load_n(&brick->owners, __ATOMIC_ACQUIRE);
-        if (owners != NULL) {
-            unsigned layer = (unsigned)cells[k].at[2] & 7;
-            __builtin_prefetch(&owners[fr_voxels_slot(layer, fr_voxels_bit(cells[k]))], 1);
-        }
+/// Ways are looked for among what is owned, which claims leave as it is.
+static void look_for_way(const Round *round, FrProposal *proposal, FrCell *cells) {
+    propose(round->growth, proposal, round->is_again, cells);
+    if (proposal->state == FR_PROPOSAL_ASKS) {
+        fetch(round->growth, proposal, cells);
     }
 }
 
-/// Ways are looked for among what is owned, which claims leave as it is.
+static void claim_way(const Round *round, FrProposal *proposal, FrCell *cells) {
+    claim(round->growth, proposal, cells);
+    fr_path_keep(round->growth, proposal, cells);
+}
+
 static void propose_range(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
     const Round *round = data;
-    FrCell cells[AHEAD][FR_WALK_CELLS];
-    for (size_t i = begin; i < end + AHEAD; i++) {
-        if (i >= begin + AHEAD) {
-            FrProposal *proposal = &round->growth->proposals[round->open[i - AHEAD]];
-            if (proposal->state == FR_PROPOSAL_ASKS) {
-                claim(round->growth, proposal, cells[i % AHEAD]);
-                fr_path_keep(round->growth, proposal, cells[i % AHEAD]);
-            }
+    for (size_t from = begin; from < end; from += TOGETHER) {
+        size_t to = MIN(from + TOGETHER, end);
+        for (size_t i = from; i < to; i++) {
+            FrProposal *proposal = proposal_at(round, i);
+            aim(round->growth, proposal, 0);
+            fetch_tip(round->growth, proposal);
+            proposal->state = FR_PROPOSAL_ASKS;
         }
-        if (i < end) {
-            propose(round->growth, round->open[i], round->is_again, cells[i % AHEAD]);
-            FrProposal *proposal = &round->growth->proposals[round->open[i]];
-            if (proposal->state == FR_PROPOSAL_ASKS) {
-                fetch(round->growth, proposal, cells[i % AHEAD]);
-            }
-        }
+        serve(round, from, to, look_for_way, claim_way);
     }
+}
+
+static void decide(const Round *round, FrProposal *proposal, FrCell *cells) {
+    bool is_first = fr_growth_is_first(round->growth, proposal, cells);
+    proposal->next = is_first ? FR_PROPOSAL_WON : FR_PROPOSAL_LOST;
 }
 
 static void decide_range(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
-    const Round *round = data;
-    const FrGrowth *growth = round->growth;
-    FrCell cells[FR_WALK_CELLS];
-    for (size_t i = begin; i < end; i++) {
-        FrProposal *proposal = &growth->proposals[round->open[i]];
-        if (proposal->state == FR_PROPOSAL_ASKS) {
-            fr_path_cells(growth, proposal, cells);
-            bool is_first = fr_growth_is_first(growth, proposal, cells);
-            proposal->next = is_first ? FR_PROPOSAL_WON : FR_PROPOSAL_LOST;
-        }
-    }
+    serve(data, begin, end, look_up, decide);
 }
 
 /// True for a cell in which a proposal is the first of all that ask for it.
@@ -161,10 +214,10 @@ static bool has_first(const FrBrick *brick, FrCell cell, uint32_t own) {
 }
 
 /// A winner takes the cells in which it is the first; a loser leaves them as they were.
-static void settle(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
+static void settle(const Round *round, FrProposal *proposal, FrCell *cells) {
     FrBrick *brick = NULL;
     for (uint32_t k = 1; k < proposal->cell_count; k++) {
-        brick = fr_voxels_next_brick(growth->voxels, cells, k, brick);
+        brick = fr_voxels_next_brick(round->growth->voxels, cells, k, brick);
         unsigned layer = (unsigned)cells[k].at[2] & 7;
         __atomic_store_n(&brick->asked[layer], 0, __ATOMIC_RELAXED);
         if (!has_first(brick, cells[k], proposal->own)) {
@@ -177,20 +230,12 @@ static void settle(const FrGrowth *growth, const FrProposal *proposal, const FrC
             __atomic_store_n(fr_voxels_at(brick, cells[k]), FR_VOXEL_FREE, __ATOMIC_RELAXED);
         }
     }
+    proposal->state = proposal->next;
 }
 
 static void settle_range(void *data, size_t begin, size_t end, int worker) {
     (void)worker;
-    const Round *round = data;
-    FrCell cells[FR_WALK_CELLS];
-    for (size_t i = begin; i < end; i++) {
-        FrProposal *proposal = &round->growth->proposals[round->open[i]];
-        if (proposal->state == FR_PROPOSAL_ASKS) {
-            fr_path_cells(round->growth, proposal, cells);
-            settle(round->growth, proposal, cells);
-            proposal->state = proposal->next;
-        }
-    }
+    serve(data, begin, end, look_up, settle);
 }
 
 void fr_growth_settle(FrGrowth *growth, uint32_t *open, uint32_t count, const FrContext *context) {

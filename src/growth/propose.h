@@ -43,6 +43,8 @@ void fr_path_keep(const FrGrowth *growth, FrProposal *proposal, const FrCell *ce
 void fr_path_cells(const FrGrowth *growth, const FrProposal *proposal, FrCell *cells);
 
 // ---- collide.c --------------------------------------------------------------------------------
+/// The cell that a proposal ends in; false if it ends outside of the voxels.
+bool fr_growth_tip(const FrGrowth *growth, const FrProposal *proposal, FrCell *tip);
 /// True if nothing that stands is in a proposal's way; then these are its cells.
 bool fr_growth_is_free(const FrGrowth *growth, FrProposal *proposal, FrCell *cells);
 /// True if nobody who asks for its cells comes before it.
