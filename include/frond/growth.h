@@ -135,7 +135,10 @@ FR_API FR_MUST_USE FrStatus fr_growth_add_particles(FrGrowth *growth, const FrPa
 FR_API FR_MUST_USE FrStatus fr_growth_step(FrGrowth *growth, const FrContext *context);
 /// Back to before the last step, as often as `history` allows. False if there is nothing to undo.
 FR_API bool fr_growth_undo(FrGrowth *growth);
+/// It reads all plants, for their digest.
 FR_API FrGrowthStats fr_growth_stats(const FrGrowth *growth);
+/// Steps so far.
+FR_API uint64_t fr_growth_step_count(const FrGrowth *growth);
 
 FR_API uint32_t fr_growth_plant_count(const FrGrowth *growth);
 /// True if a plant has a growing bud.

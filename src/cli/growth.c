@@ -27,7 +27,7 @@ static FrStatus write_checkpoint(CliSession *session, const FrSimulation *simula
 }
 
 static void note_stand(CliSession *session, const FrGrowth *growth) {
-    CliStand stand = {.step = fr_growth_stats(growth).step};
+    CliStand stand = {.step = fr_growth_step_count(growth)};
     for (uint32_t i = 0; i < fr_growth_plant_count(growth); i++) {
         if (fr_growth_is_alive(growth, i)) {
             stand.living++;

@@ -92,6 +92,7 @@ typedef struct FrGrownPlant {
     uint32_t live_count, growing_count;         ///< gathered buds
     uint32_t first_growing, first_asleep;       ///< of them, among those of all plants
     uint32_t first_proposal, proposal_count;    ///< in this round
+    uint32_t longest_shoot;                     ///< of those that propose, in internodes
     uint32_t first_owner, owner_count;          ///< new ones of this round
     uint32_t first_shade, shade_count;          ///< nodes with leaves
     uint32_t born, shed, collisions, contested; ///< in this step
@@ -184,7 +185,7 @@ struct FrGrowth {
     FrLiveBudAt *live; ///< all live buds, the growing ones first
     uint32_t live_capacity;
     FrScratch *scratch, *drop_scratch; ///< by worker
-    FrScratch shade_memory, sky_memory;
+    FrScratch shade_memory, sky_memory, known_memory;
     int scratch_count;
     uint64_t step;
     double seconds, light_seconds; ///< of the last step
@@ -210,8 +211,9 @@ bool fr_bytes_take_count(FrBytesReader *reader, uint64_t limit, uint64_t *count)
 /// Gathers all live buds in growth->live, the growing ones first. Returns how many grow.
 uint32_t fr_growth_gather_live(FrGrowth *growth, uint32_t *count, const FrContext *context);
 /// Gathers a proposal for every shoot that has this internode still to make, plant by plant.
-/// Returns how many.
-uint32_t fr_growth_gather_proposals(FrGrowth *growth, uint32_t internode, const FrContext *context);
+/// Returns how many, and tells whether some shoot has a further one to make.
+uint32_t fr_growth_gather_proposals(FrGrowth *growth, uint32_t internode, bool *goes_on,
+                                    const FrContext *context);
 
 // ---- sense.c ----------------------------------------------------------------------------------
 /// What buds learn before plants change: light, particles, stronger apices. FR_CANCELLED leaves

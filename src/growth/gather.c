@@ -80,10 +80,11 @@ static void count_proposals(void *data, size_t begin, size_t end, int worker) {
     const Gathering *gathering = data;
     for (size_t p = begin; p < end; p++) {
         FrGrownPlant *plant = &gathering->growth->plants[p];
-        plant->proposal_count = plant->owner_count = 0;
+        plant->proposal_count = plant->owner_count = plant->longest_shoot = 0;
         for (uint32_t b = 0; b < plant->bud_count; b++) {
             if (proposes(&plant->buds[b], gathering->internode)) {
                 plant->proposal_count++;
+                plant->longest_shoot = MAX(plant->longest_shoot, plant->buds[b].shoot);
                 plant->owner_count += plant->axes[plant->buds[b].axis].owner == FR_NONE;
             }
         }
@@ -138,17 +139,19 @@ static void room_for_proposals(FrGrowth *growth, uint32_t count) {
     }
 }
 
-uint32_t fr_growth_gather_proposals(FrGrowth *growth, uint32_t internode,
+uint32_t fr_growth_gather_proposals(FrGrowth *growth, uint32_t internode, bool *goes_on,
                                     const FrContext *context) {
     Gathering gathering = {growth, internode};
     fr_parallel_for(context->pool, growth->plant_count, 1, count_proposals, &gathering, NULL);
     uint32_t count = 0, owners = growth->owner_count;
+    *goes_on = false;
     for (uint32_t p = 0; p < growth->plant_count; p++) {
         FrGrownPlant *plant = &growth->plants[p];
         plant->first_proposal = count;
         plant->first_owner = owners;
         count += plant->proposal_count;
         owners += plant->owner_count;
+        *goes_on |= plant->longest_shoot > internode + 1;
     }
     room_for_proposals(growth, count);
     fr_growth_reserve_owners(growth, owners);

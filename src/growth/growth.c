@@ -197,6 +197,7 @@ void fr_growth_free(FrGrowth *growth) {
     g_free(growth->live);
     fr_scratch_clear(&growth->shade_memory);
     fr_scratch_clear(&growth->sky_memory);
+    fr_scratch_clear(&growth->known_memory);
     for (int i = 0; i < growth->scratch_count; i++) {
         fr_scratch_clear(&growth->scratch[i]);
         fr_scratch_clear(&growth->drop_scratch[i]);
@@ -372,6 +373,10 @@ FrGrowthStats fr_growth_stats(const FrGrowth *growth) {
         count_plant(growth, &growth->plants[i], &stats);
     }
     return stats;
+}
+
+uint64_t fr_growth_step_count(const FrGrowth *growth) {
+    return growth->step;
 }
 
 uint32_t fr_growth_plant_count(const FrGrowth *growth) {

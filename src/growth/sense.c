@@ -12,18 +12,27 @@ typedef struct Known {
 } Known;
 
 typedef struct Before {
+    const FrGrowth *growth;
     Known *buds;      ///< by place in growth->live
     uint8_t *is_dead; ///< by particle
     uint32_t dead_count;
 } Before;
 
-static Before keep(const FrGrowth *growth, uint32_t count) {
-    Before before = {.buds = g_new(Known, count + 1u)};
-    for (uint32_t i = 0; i < count; i++) {
-        const FrLiveBud *bud = growth->live[i].bud;
-        before.buds[i] = (Known){bud->brightest, bud->attraction, bud->light,
-                                 bud->slope,     bud->is_resting, bud->is_reached};
+static void keep_range(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Before *before = data;
+    for (size_t i = begin; i < end; i++) {
+        const FrLiveBud *bud = before->growth->live[i].bud;
+        before->buds[i] = (Known){bud->brightest, bud->attraction, bud->light,
+                                  bud->slope,     bud->is_resting, bud->is_reached};
     }
+}
+
+static Before keep(FrGrowth *growth, uint32_t count, const FrContext *context) {
+    enum { GRAIN = 4096 };
+    Before before = {.growth = growth};
+    before.buds = fr_scratch_take(&growth->known_memory, (count + 1u) * sizeof(Known));
+    fr_parallel_for(context->pool, count, GRAIN, keep_range, &before, NULL);
     if (growth->particles != NULL) {
         before.is_dead = g_memdup2(growth->particles->is_dead, growth->particles->count);
         before.dead_count = growth->particles->dead_count;
@@ -70,12 +79,11 @@ FrStatus fr_growth_sense(FrGrowth *growth, const FrContext *context) {
         rest.progress = NULL; // they have changed
     }
     uint32_t count, growing = fr_growth_gather_live(growth, &count, context);
-    Before before = keep(growth, count);
+    Before before = keep(growth, count, context);
     status = learn(growth, count, growing, &rest);
     if (status != FR_OK) {
         put_back(growth, count, &before);
     }
-    g_free(before.buds);
     g_free(before.is_dead);
     return status;
 }

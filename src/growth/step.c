@@ -96,11 +96,9 @@ static void room_for_workers(FrGrowth *growth, const FrContext *context) {
 }
 
 static void make_shoots(FrGrowth *growth, const FrContext *context) {
-    for (uint32_t internode = 0;; internode++) {
-        uint32_t count = fr_growth_gather_proposals(growth, internode, context);
-        if (count == 0) {
-            return;
-        }
+    bool goes_on = true;
+    for (uint32_t internode = 0; goes_on; internode++) {
+        uint32_t count = fr_growth_gather_proposals(growth, internode, &goes_on, context);
         fr_growth_settle(growth, growth->open, count, context);
         fr_parallel_for(context->pool, growth->plant_count, 1, commit_plants, growth, NULL);
     }

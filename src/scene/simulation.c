@@ -74,19 +74,24 @@ uint64_t fr_simulation_step_count(const FrSimulation *simulation) {
 
 // ---- all at once ------------------------------------------------------------------------------
 
+/// Steps of growth bud by bud so far.
+static uint64_t steps_done(const FrSimulation *simulation) {
+    const FrGrowth *growth = fr_simulation_growth(simulation);
+    return growth == NULL ? 0 : fr_growth_step_count(growth);
+}
+
 static bool has_steps(const FrSimulation *simulation) {
-    return (fr_simulation_is_growing(simulation) &&
-            fr_simulation_stats(simulation).step < simulation->steps) ||
+    return (fr_simulation_is_growing(simulation) && steps_done(simulation) < simulation->steps) ||
            fr_growing_has_steps(simulation->growing);
 }
 
 static FrStatus run_step(FrSimulation *simulation, const FrSceneOptions *options,
                          const FrContext *context) {
-    bool is_growing = fr_simulation_is_growing(simulation) &&
-                      fr_simulation_stats(simulation).step < simulation->steps;
+    bool is_growing =
+        fr_simulation_is_growing(simulation) && steps_done(simulation) < simulation->steps;
     FrStatus status =
         is_growing ? fr_simulation_step(simulation, context) : step_growing(simulation, context);
-    uint64_t step = fr_simulation_stats(simulation).step;
+    uint64_t step = steps_done(simulation);
     if (status == FR_OK && is_growing && options->after_step != NULL) {
         status = options->after_step(options->data, simulation, context);
     }
@@ -105,7 +110,7 @@ static FrStatus run(FrSimulation *simulation, const FrSceneOptions *options,
     if (options->resume != NULL) {
         status = fr_simulation_restore(simulation, options->resume, options->resume_size,
                                        options->resume_span, context);
-        uint64_t reached = fr_simulation_stats(simulation).step;
+        uint64_t reached = steps_done(simulation);
         if (status == FR_OK && reached > simulation->steps) {
             fr_diags_add(context->diags, FR_WARNING, "resumed-later", options->resume_span,
                          "the saved growth has done %" G_GUINT64_FORMAT
