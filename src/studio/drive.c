@@ -127,6 +127,11 @@ static void where(Drive *drive, char *const *words, const char *name) {
     }
 }
 
+// Seconds from the last request to a picture; 0: there was none.
+static double seen_after(const StudioWindow *window, gint64 seen) {
+    return seen == 0 ? 0 : (double)(seen - window->asked_time) * 1e-6;
+}
+
 static void state(Drive *drive, char *const *words, const char *rest) {
     (void)words;
     (void)rest;
@@ -143,13 +148,14 @@ static void state(Drive *drive, char *const *words, const char *rest) {
            "\"problems\": %zu, \"selected\": \"%s\", \"triangles\": %" G_GUINT64_FORMAT
            ", \"leaves\": %" G_GUINT64_FORMAT ", \"read\": %.6f, \"build\": %.6f, \"view\": %.6f, "
            "\"upload\": %.6f, \"coarse\": %.6f, \"fine\": %.6f, \"coarse_triangles\": "
-           "%" G_GUINT64_FORMAT "}",
+           "%" G_GUINT64_FORMAT ", \"first\": %.6f, \"whole\": %.6f}",
            (guint64)studio_document_digest(document), studio_document_steps(document),
            studio_document_is_saved(document) ? "true" : "false",
            window->diags == NULL ? 0 : fr_diags_error_count(window->diags),
            selected == NULL ? "" : selected, amount.triangles, amount.leaves, window->times.read,
            window->times.build, window->times.view, amount.uploaded_seconds, pace.coarse_seconds,
-           pace.fine_seconds, pace.coarse_triangles);
+           pace.fine_seconds, pace.coarse_triangles, seen_after(window, window->first_seen),
+           seen_after(window, window->whole_seen));
 }
 
 static void sketch(Drive *drive, char *const *words, const char *rest) {

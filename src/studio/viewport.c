@@ -101,6 +101,11 @@ static gboolean on_render(GtkGLArea *area, GdkGLContext *context, gpointer data)
     viewport->display.time = (double)g_get_monotonic_time() * 1e-6;
     bool has_more = studio_renderer_draw(viewport->renderer, &viewport->camera, &viewport->display,
                                          viewport->is_moving || viewport->display.has_wind);
+    if (viewport->stamp != NULL) {
+        glFinish();
+        *viewport->stamp = g_get_monotonic_time();
+        viewport->stamp = NULL;
+    }
     if (!has_more && viewport->tick != 0) {
         gtk_widget_remove_tick_callback(GTK_WIDGET(viewport), viewport->tick);
         viewport->tick = 0;
@@ -224,6 +229,10 @@ void studio_viewport_highlight(StudioViewport *viewport, const float (*points)[3
         overlay->through = 1;
     }
     studio_viewport_set_overlay(viewport, "picked", overlay);
+}
+
+void studio_viewport_stamp(StudioViewport *viewport, gint64 *stamp) {
+    viewport->stamp = stamp;
 }
 
 bool studio_viewport_is_done(StudioViewport *viewport) {

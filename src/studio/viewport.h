@@ -45,6 +45,8 @@ void studio_viewport_move(StudioViewport *viewport, double azimuth, double eleva
 /// Layers are drawn in the order of their names. The picture below is not drawn again.
 void studio_viewport_set_overlay(StudioViewport *viewport, const char *name,
                                  StudioOverlay *overlay);
+/// `*stamp` becomes the time, g_get_monotonic_time(), when the next picture has been drawn.
+void studio_viewport_stamp(StudioViewport *viewport, gint64 *stamp);
 /// Marks lines, pairs of points, as what was picked: the overlay "picked".
 void studio_viewport_highlight(StudioViewport *viewport, const float (*points)[3], uint32_t count);
 /// The box around everything that stands; min > max if there is nothing.

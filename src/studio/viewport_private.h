@@ -17,6 +17,7 @@ struct _StudioViewport {
     double drag_x, drag_y;
     gint64 moved; // when it moved last
     guint tick;
+    gint64 *stamp; // where the time of the next picture goes; NULL: nowhere
 };
 
 /// Something is to be drawn, perhaps in several frames.

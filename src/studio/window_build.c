@@ -33,8 +33,10 @@ static void show_amount(StudioWindow *window, const StudioTimes *times, bool is_
 }
 
 static void take(StudioWindow *window, const StudioBuilt *built) {
+    studio_viewport_set_overlay(window->viewport, "ahead", NULL);
     if (built->view != NULL) {
         studio_viewport_take(window->viewport, built->view);
+        studio_viewport_stamp(window->viewport, &window->whole_seen);
     }
     if (built->is_forgotten) { // it must not be what the document that came is framed by
         studio_viewport_forget(window->viewport);
@@ -72,6 +74,11 @@ static void take(StudioWindow *window, const StudioBuilt *built) {
 void studio_window_collect(StudioWindow *window) {
     if (window->builder == NULL || !studio_viewport_is_ready(window->viewport)) {
         return;
+    }
+    StudioOverlay *ahead = studio_builder_take_ahead(window->builder);
+    if (ahead != NULL) {
+        studio_viewport_set_overlay(window->viewport, "ahead", ahead);
+        studio_viewport_stamp(window->viewport, &window->first_seen);
     }
     const StudioBuilt *built;
     while ((built = studio_builder_collect(window->builder)) != NULL) {
@@ -141,6 +148,8 @@ void studio_window_request(StudioWindow *window) {
     }
     window->asked = revision;
     window->asked_moment = window->moment;
+    window->asked_time = g_get_monotonic_time();
+    window->first_seen = window->whole_seen = 0;
     studio_builder_request(window->builder, studio_document_source(window->document),
                            studio_document_folder(window->document), revision, window->moment);
     studio_window_poll(window);

@@ -27,17 +27,18 @@ struct _StudioWindow {
     StudioDocument *document; ///< NULL: the welcome page
     StudioRecovery *recovery;
     StudioBuilder *builder;
-    char *selected;                    ///< place of what the inspector shows; NULL
-    char *plant;                       ///< place of the plant the graph shows; NULL
-    FrDiags *diags;                    ///< of the last build; NULL
-    StudioTimes times;                 ///< of the last build
-    uint64_t asked, shown;             ///< revisions
-    StudioMoment moment, asked_moment; ///< of what is shown
-    guint autosave, progress;          ///< timers
-    gint is_woken;                     ///< atomic: the main thread is on its way
-    StudioPicked picked;               ///< what was clicked last; `lines` NULL: nothing
-    guint exports;                     ///< that run
-    bool is_closing;                   ///< the user has said what shall become of changes
+    char *selected;                            ///< place of what the inspector shows; NULL
+    char *plant;                               ///< place of the plant the graph shows; NULL
+    FrDiags *diags;                            ///< of the last build; NULL
+    StudioTimes times;                         ///< of the last build
+    uint64_t asked, shown;                     ///< revisions
+    StudioMoment moment, asked_moment;         ///< of what is shown
+    gint64 asked_time, first_seen, whole_seen; ///< of the last request: when, and when drawn; µs
+    guint autosave, progress;                  ///< timers
+    gint is_woken;                             ///< atomic: the main thread is on its way
+    StudioPicked picked;                       ///< what was clicked last; `lines` NULL: nothing
+    guint exports;                             ///< that run
+    bool is_closing;                           ///< the user has said what shall become of changes
 
     GtkWidget *stack; ///< "welcome", "document"
     AdwWindowTitle *title;

@@ -126,6 +126,43 @@ static void test_leaves(Fixture *fixture, gconstpointer data) {
     studio_document_free(document);
 }
 
+// What is shown ahead of the next outcome, which is waited for; NULL: nothing.
+static StudioOverlay *ahead_of(Fixture *fixture, const StudioDocument *document) {
+    request(fixture, document, NAN);
+    StudioOverlay *ahead = NULL;
+    const StudioBuilt *built = NULL;
+    while (built == NULL) {
+        ahead = ahead != NULL ? ahead : studio_builder_take_ahead(fixture->builder);
+        built = studio_builder_collect(fixture->builder);
+        g_usleep(500);
+    }
+    g_assert_nonnull(built->view);
+    studio_builder_release(fixture->builder);
+    return ahead;
+}
+
+static void test_ahead(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    StudioDocument *document = open_example("examples/chestnut.frond");
+    g_assert_null(ahead_of(fixture, document)); // nothing is known of it yet
+    const FrContents *contents = studio_document_contents(document);
+    studio_set(document, fr_contents_find(contents, 0, "trunk"), "length", "14", false);
+    StudioOverlay *skeleton = ahead_of(fixture, document);
+    g_assert_nonnull(skeleton);
+    g_assert_cmpuint(skeleton->lines->len, >, 2 * 500);
+    float top = 0;
+    for (guint i = 0; i < skeleton->lines->len; i++) {
+        top = MAX(top, g_array_index(skeleton->lines, StudioMark, i).at[2]);
+    }
+    g_assert_cmpfloat(top, >, 12); // it is the new trunk
+    studio_overlay_free(skeleton);
+    contents = studio_document_contents(document);
+    studio_set(document, studio_place_find(contents, "frond/plant:chestnut/pgraph/leaf:leaf"),
+               "width", "0.06", false);
+    g_assert_null(ahead_of(fixture, document)); // leaves are no part of it
+    studio_document_free(document);
+}
+
 static void test_surfaces(Fixture *fixture, gconstpointer data) {
     (void)data;
     StudioDocument *document = open_example("examples/nurbs/star.frond");
@@ -334,6 +371,8 @@ int main(int argc, char **argv) {
     ADD("/studio/builder/a document becomes a view with counts", test_builds);
     ADD("/studio/builder/the first leaves of a batch are spread over all", test_leaves);
     ADD("/studio/builder/plants with surfaces are shown as surfaces", test_surfaces);
+    ADD("/studio/builder/the skeleton of what takes long is there before it, if it is another",
+        test_ahead);
     ADD("/studio/builder/a mistake has its place and does not stop the next build",
         test_last_good_stays);
     ADD("/studio/builder/of many requests the last is built", test_newest_only);

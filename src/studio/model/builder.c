@@ -1,5 +1,6 @@
 #include "studio/model/builder.h"
 
+#include "studio/model/ahead.h"
 #include "studio/model/clocks.h"
 #include "studio/model/counts.h"
 #include "studio/model/grower.h"
@@ -51,6 +52,7 @@ struct StudioBuilder {
     void *watcher;
     bool is_growing; // what stands grows bud by bud
     FrRebuild *rebuild;
+    StudioAhead *ahead;
     StudioGrower *grower;
     FrPool *pool;
     StudioView *view;
@@ -98,14 +100,6 @@ static void paint_looks(StudioBuilder *builder) {
     }
 }
 
-static uint64_t count_nodes(const StudioView *view) {
-    uint64_t nodes = 0;
-    for (guint p = 0; p < view->plants->len; p++) {
-        nodes += ((const StudioPlant *)g_ptr_array_index(view->plants, p))->plant->nodes.count;
-    }
-    return nodes;
-}
-
 static bool is_same_wood(const FrSkin *skin) {
     uint32_t count;
     const FrSkinPart *parts = fr_skin_parts(skin, &count);
@@ -142,7 +136,7 @@ static void adopt_view(StudioBuilder *builder, StudioView *view, const FrContext
     studio_view_free(old);
     builder->view = view;
     builder->scene = view->scene;
-    if (count_nodes(view) >= COARSE_FROM) {
+    if (studio_view_nodes(view) >= COARSE_FROM) {
         studio_view_add_coarse(view, context);
     }
 }
@@ -262,7 +256,13 @@ static void serve(StudioBuilder *builder, Request *request, FrProgress *progress
     built->revision = request->revision;
     built->round = request->round;
     built->diags = context.diags;
+    StudioDraft draft = {request->source, request->folder, request->moment.time};
+    studio_ahead_begin(builder->ahead, &draft, &context);
     built->status = build(builder, request, &context, built);
+    bool is_large = fr_rebuild_work(builder->rebuild).instances_made > 0;
+    studio_ahead_end(builder->ahead, &draft, built->view == NULL ? NULL : builder->scene,
+                     built->counts, is_large ? built->times.build + built->times.view : 0,
+                     &context);
     if (built->view != NULL) {
         builder->is_growing = built->is_growing;
     }
@@ -324,6 +324,7 @@ StudioBuilder *studio_builder_new(StudioWake wake, void *user) {
     FrSkinParams params = fr_skin_default();
     params.foliage = false;
     builder->rebuild = fr_rebuild_new(&params, FR_UP_Z);
+    builder->ahead = studio_ahead_new(wake, user);
     builder->grower = studio_grower_new();
     builder->pool = fr_pool_new(0);
     builder->painter = studio_painter_new(wake, user);
@@ -352,6 +353,7 @@ void studio_builder_free(StudioBuilder *builder) {
     built_free(builder->built);
     request_free(builder->waiting);
     fr_rebuild_free(builder->rebuild);
+    studio_ahead_free(builder->ahead);
     studio_grower_free(builder->grower);
     fr_pool_free(builder->pool);
     g_cond_clear(&builder->changed);
@@ -379,6 +381,7 @@ void studio_builder_forget(StudioBuilder *builder) {
     g_mutex_lock(&builder->lock);
     builder->round++;
     g_clear_pointer(&builder->waiting, request_free);
+    studio_ahead_forget(builder->ahead);
     fr_progress_cancel(builder->progress);
     g_mutex_unlock(&builder->lock);
 }
@@ -443,6 +446,10 @@ void studio_builder_release(StudioBuilder *builder) {
         g_cond_broadcast(&builder->changed);
     }
     g_mutex_unlock(&builder->lock);
+}
+
+StudioOverlay *studio_builder_take_ahead(StudioBuilder *builder) {
+    return studio_ahead_take(builder->ahead);
 }
 
 bool studio_builder_take_picture(StudioBuilder *builder, StudioPicture *picture) {

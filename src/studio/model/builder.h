@@ -7,6 +7,7 @@
 #include "frond/growth.h"
 #include "studio/model/counts.h"
 #include "studio/model/ground.h"
+#include "studio/model/overlay.h"
 #include "studio/model/patch.h"
 #include "studio/model/view.h"
 
@@ -92,6 +93,9 @@ bool studio_builder_is_looking(StudioBuilder *builder);
 /// after studio_builder_release().
 const StudioBuilt *studio_builder_collect(StudioBuilder *builder);
 void studio_builder_release(StudioBuilder *builder);
+/// What is being built, as lines, where its surfaces will take longer than an eye waits; NULL:
+/// there is nothing to show ahead. Taken before what is collected.
+StudioOverlay *studio_builder_take_ahead(StudioBuilder *builder);
 /// The next picture; free `image`. False: none is ready.
 bool studio_builder_take_picture(StudioBuilder *builder, StudioPicture *picture);
 /// Asks for the pictures of a material that no plant need have.

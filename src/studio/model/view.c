@@ -323,6 +323,14 @@ void studio_view_add_coarse(StudioView *view, const FrContext *context) {
     }
 }
 
+uint64_t studio_view_nodes(const StudioView *view) {
+    uint64_t nodes = 0;
+    for (guint p = 0; p < view->plants->len; p++) {
+        nodes += ((const StudioPlant *)g_ptr_array_index(view->plants, p))->plant->nodes.count;
+    }
+    return nodes;
+}
+
 void studio_view_free(StudioView *view) {
     if (view != NULL) {
         g_ptr_array_unref(view->plants);

@@ -64,6 +64,8 @@ StudioView *studio_view_new(const FrRebuild *rebuild, const FrContext *context);
 /// The same of any scene, with the skin of each of its plants.
 StudioView *studio_view_of(const FrScene *scene, const FrSkin *const *skins,
                            const FrContext *context);
+/// How many internodes its plants have together.
+uint64_t studio_view_nodes(const StudioView *view);
 /// Makes the coarse wood where there is none yet.
 void studio_view_add_coarse(StudioView *view, const FrContext *context);
 void studio_view_free(StudioView *view);
