@@ -118,6 +118,9 @@
     X(REAL, tip_radius, "0.004", 0.00001, 1, "m", "", "of last internodes")                        \
     X(REAL, pipe_exponent, "2.3", 1, 4, "", "", "of radii at forks; 2 keeps areas")                \
     X(REAL, taper, "0.15", 0, 10, "", "", "tips' worth of wood that each internode adds")          \
+    X(CHOICE, fallen_wood, "kept", 0, 0, "", "kept reused",                                        \
+      "wood of fallen branches stays in what bore them beside that of later ones, or later ones "  \
+      "take its place")                                                                            \
     X(SWITCH, smooth, "yes", 0, 1, "", "", "axes are drawn as splines through their nodes")        \
     X(TEXT, bark, "", 0, 0, "", "", "id of the material of wood")                                  \
     /* leaves */                                                                                   \
@@ -188,6 +191,7 @@ enum {
 };
 enum { FR_FATE_AUXIN, FR_FATE_FLUX, FR_FATE_PRIORITY, FR_FATE_COLONIZE };
 enum { FR_SHED_NONE, FR_SHED_LIGHT, FR_SHED_VIGOUR, FR_SHED_BOTH };
+enum { FR_WOOD_KEPT, FR_WOOD_REUSED };
 enum { FR_DEAD_STANDS, FR_DEAD_FALLS };
 enum { FR_PARTICLE_SPACE, FR_PARTICLE_BUD };
 enum { FR_PARTICLES_ALL, FR_PARTICLES_NEAREST };

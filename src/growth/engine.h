@@ -375,7 +375,7 @@ FR_MUST_USE FrStatus fr_growth_compete(FrGrowth *growth, const FrLiveBudAt *buds
 
 // ---- pipe.c -----------------------------------------------------------------------------------
 /// Wood of each node in tips: r^e over that of a tip.
-void fr_growth_pipes(const FrGrownPlant *plant, double taper, double *pipes);
+void fr_growth_pipes(const FrGrownPlant *plant, const FrSpeciesParams *params, double *pipes);
 /// Radii of so much wood, m.
 void fr_growth_radii(const FrReadySpecies *species, const double *pipes, uint32_t count,
                      float *radii);

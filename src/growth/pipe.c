@@ -1,21 +1,26 @@
 // Radii by the pipe model (Shinozaki, Yoda, Hozumi, Kira 1964; Murray 1926 for exponent 3): r^e is
-// the sum of the children's r^e; what has been shed is remembered, so trunks never thin.
+// the sum of the children's r^e; what has been shed is remembered, so trunks never thin: as pipes
+// that stay, or as the most pipes that there have been.
 #include "growth/engine.h"
 
 #include <cglm/struct.h>
 #include <math.h>
 
-void fr_growth_pipes(const FrGrownPlant *plant, double taper, double *pipes) {
+void fr_growth_pipes(const FrGrownPlant *plant, const FrSpeciesParams *params, double *pipes) {
     const FrGrownNodes *nodes = &plant->nodes;
+    bool is_kept = params->fallen_wood == FR_WOOD_KEPT;
     for (uint32_t i = 0; i < nodes->count; i++) {
-        pipes[i] = (double)nodes->wood[i];
+        pipes[i] = is_kept ? (double)nodes->wood[i] : 0;
     }
     for (uint32_t i = nodes->count; i-- > 0;) {
         // A tip has one pipe, and each internode adds a little for its own leaves.
-        pipes[i] = pipes[i] > 0 ? pipes[i] + taper : 1;
+        pipes[i] = pipes[i] > 0 ? pipes[i] + params->taper : 1;
         if (nodes->parent[i] != FR_NONE) {
             pipes[nodes->parent[i]] += pipes[i];
         }
+    }
+    for (uint32_t i = 0; i < nodes->count && !is_kept; i++) {
+        pipes[i] = fmax(pipes[i], (double)nodes->wood[i]);
     }
 }
 
@@ -40,7 +45,7 @@ double fr_growth_wood(const FrGrowth *growth, uint32_t plant) {
     uint32_t count = of->nodes.count;
     double *pipes = g_new(double, count + 1), volume = 0;
     float *radii = g_new(float, count + 1);
-    fr_growth_pipes(of, species->params.taper, pipes);
+    fr_growth_pipes(of, &species->params, pipes);
     fr_growth_radii(species, pipes, count, radii);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t parent = of->nodes.parent[i];

@@ -4,6 +4,7 @@
 // their wood.
 #include "growth/engine.h"
 
+#include <math.h>
 #include <string.h>
 
 /// Of each internode: what stands on it and beyond.
@@ -92,14 +93,17 @@ static void free_cells(const FrGrowth *growth, const FrGrownPlant *plant,
     }
 }
 
-/// What bore a fallen branch keeps as many pipes as it had.
+/// What bore a fallen branch keeps as many pipes as it had: those of the branch beside all others,
+/// or the number of all, which later ones fill up first.
 static void remember_wood(FrGrownPlant *plant, const FrSpeciesParams *params,
                           const uint8_t *has_fallen, double *pipes) {
     FrGrownNodes *nodes = &plant->nodes;
-    fr_growth_pipes(plant, params->taper, pipes);
+    fr_growth_pipes(plant, params, pipes);
     for (uint32_t i = 0; i < nodes->count; i++) {
         uint32_t parent = nodes->parent[i];
-        if (has_fallen[i] && parent != FR_NONE && !has_fallen[parent]) {
+        if (params->fallen_wood == FR_WOOD_REUSED) {
+            nodes->wood[i] = fmaxf(nodes->wood[i], (float)pipes[i]);
+        } else if (has_fallen[i] && parent != FR_NONE && !has_fallen[parent]) {
             nodes->wood[parent] += (float)pipes[i];
         }
     }

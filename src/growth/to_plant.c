@@ -153,7 +153,7 @@ static void add_buds(FrMaking *making) {
 static void find_radii(FrMaking *making) {
     uint32_t count = making->from->nodes.count;
     double *pipes = g_new(double, count + 1);
-    fr_growth_pipes(making->from, making->species->params.taper, pipes);
+    fr_growth_pipes(making->from, &making->species->params, pipes);
     fr_growth_radii(making->species, pipes, count, making->radii);
     g_free(pipes);
 }

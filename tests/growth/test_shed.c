@@ -80,9 +80,42 @@ static void test_wood(void) {
     world_clear(&world);
 }
 
+/// Pipes at the foot of a plant that fills its envelope and then grows as much as falls.
+static void grow_pipes(const char *fallen_wood, double pipes_after[60]) {
+    World world;
+    world_init(&world);
+    world_set(&world, "model", "open");
+    world_set(&world, "dormancy", "0");
+    world_set(&world, "envelope", "1.2,0 1.2,2");
+    world_set(&world, "shed-light", "0.4");
+    world_set(&world, "fallen-wood", fallen_wood);
+    world_sow_one(&world);
+    for (int i = 0; i < 60; i++) {
+        world_step(&world, 1);
+        const FrGrownPlant *plant = &world.growth->plants[0];
+        double *pipes = g_new(double, plant->nodes.count);
+        fr_growth_pipes(plant, &world.species.params, pipes);
+        pipes_after[i] = pipes[0];
+        g_free(pipes);
+        g_assert_true(i == 0 || pipes_after[i] >= pipes_after[i - 1] * 0.999999);
+    }
+    world_clear(&world);
+}
+
+static void test_fallen_wood(void) {
+    double kept[60], reused[60];
+    grow_pipes("kept", kept);
+    grow_pipes("reused", reused);
+    g_test_message("%g, then %g; %g, then %g", kept[29], kept[59], reused[29], reused[59]);
+    g_assert_cmpfloat(reused[29], <, kept[29]);
+    g_assert_cmpfloat(reused[59] - reused[29], <, 0.3 * (kept[59] - kept[29]));
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/growth/shed/E10 no branch keeps so many dark buds", test_shed);
     g_test_add_func("/growth/shed/E19 forks keep the area, trunks never thin", test_wood);
+    g_test_add_func("/growth/shed/trunks never thin, and thicken less where wood is used again",
+                    test_fallen_wood);
     return g_test_run();
 }
