@@ -51,7 +51,7 @@ FR_API uint32_t fr_particles_near(const FrParticles *particles, vec3s at, float 
 /// Those that live. Free with g_free().
 FR_API FrParticle *fr_particles_living(const FrParticles *particles, uint32_t *count);
 /// Kills what is within `radius` (or within the particle's own kill radius) of a point. Returns how
-/// many.
+/// many. Several threads may do so at once.
 FR_API uint32_t fr_particles_kill(FrParticles *particles, vec3s at, float radius);
 /// True if any that lives is so near.
 FR_API bool fr_particles_reach(const FrParticles *particles, vec3s at, float radius);

@@ -229,7 +229,7 @@ FrStatus fr_growth_strew_particles(FrGrowth *growth, const FrContext *context);
 FrStatus fr_growth_fill_envelope(const FrGrowth *growth, const FrGrownPlant *plant,
                                  GArray *particles, const FrContext *context);
 /// Kills what the new nodes of this step have reached.
-void fr_growth_reach_particles(FrGrowth *growth);
+void fr_growth_reach_particles(FrGrowth *growth, const FrContext *context);
 typedef struct FrColony FrColony;
 
 void fr_colony_free(FrColony *colony);

@@ -106,11 +106,10 @@ FrStatus fr_growth_fill_envelope(const FrGrowth *growth, const FrGrownPlant *pla
     return FR_OK;
 }
 
-void fr_growth_reach_particles(FrGrowth *growth) {
-    if (growth->particles == NULL) {
-        return;
-    }
-    for (uint32_t p = 0; p < growth->plant_count; p++) {
+static void reach_range(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const FrGrowth *growth = data;
+    for (size_t p = begin; p < end; p++) {
         const FrGrownPlant *plant = &growth->plants[p];
         const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
         if (params->particle_rule != FR_PARTICLE_SPACE || params->fate == FR_FATE_COLONIZE) {
@@ -119,6 +118,12 @@ void fr_growth_reach_particles(FrGrowth *growth) {
         for (uint32_t i = plant->nodes.count - plant->born; i < plant->nodes.count; i++) {
             fr_particles_kill(growth->particles, fr_grown_tip(plant, i), (float)params->kill);
         }
+    }
+}
+
+void fr_growth_reach_particles(FrGrowth *growth, const FrContext *context) {
+    if (growth->particles != NULL) {
+        fr_parallel_for(context->pool, growth->plant_count, 1, reach_range, growth, NULL);
     }
 }
 

@@ -172,7 +172,7 @@ FrStatus fr_growth_step(FrGrowth *growth, const FrContext *context) {
     remember(growth, before);
     fr_parallel_for(context->pool, growth->plant_count, 1, begin_plants, growth, NULL);
     make_shoots(growth, context);
-    fr_growth_reach_particles(growth);
+    fr_growth_reach_particles(growth, context);
     fr_parallel_for(context->pool, growth->plant_count, 1, end_plants, growth, NULL);
     fr_growth_recast(growth, context);
     growth->seconds = (double)(g_get_monotonic_time() - begin) * 1e-6;

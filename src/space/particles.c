@@ -266,13 +266,14 @@ uint32_t fr_particles_kill(FrParticles *particles, vec3s at, float radius) {
     uint32_t killed = 0;
     for (uint32_t r = 0; r < run_count; r++) {
         for (uint32_t i = runs[r].begin; i < runs[r].end; i++) {
-            if (!particles->is_dead[i] && is_reached(particles, i, at, radius)) {
-                particles->is_dead[i] = 1;
-                killed++;
+            uint8_t *is_dead = &particles->is_dead[i];
+            if (!__atomic_load_n(is_dead, __ATOMIC_RELAXED) &&
+                is_reached(particles, i, at, radius)) {
+                killed += !__atomic_exchange_n(is_dead, 1, __ATOMIC_RELAXED);
             }
         }
     }
-    particles->dead_count += killed;
+    __atomic_fetch_add(&particles->dead_count, killed, __ATOMIC_RELAXED);
     return killed;
 }
 
