@@ -146,6 +146,9 @@ FR_API bool fr_growth_is_alive(const FrGrowth *growth, uint32_t plant);
 /// Volume of a plant's wood, m³: its internodes as cylinders.
 FR_API double fr_growth_wood(const FrGrowth *growth, uint32_t plant);
 FR_API FrSeed fr_growth_seed(const FrGrowth *growth, uint32_t plant);
+/// How far each plant is moved, x and y, to stand `apart` times farther from the middle of all; as
+/// many as there are plants. Free with g_free().
+FR_API double (*fr_growth_spread(const FrGrowth *growth, double apart))[2];
 /// A grown plant relative to its seed: axes, radii, leaves, buds. Axes of order i are of component
 /// `order-i`.
 FR_API FR_MUST_USE FrStatus fr_growth_plant(const FrGrowth *growth, uint32_t plant,

@@ -398,6 +398,18 @@ FrSeed fr_growth_seed(const FrGrowth *growth, uint32_t plant) {
     return growth->plants[plant].seed;
 }
 
+double (*fr_growth_spread(const FrGrowth *growth, double apart))[2] {
+    uint32_t count = growth->plant_count;
+    double(*shifts)[2] = g_malloc0_n((gsize)count + 1, sizeof *shifts), middle[2] = {0, 0};
+    for (uint32_t i = 0; i < 2 * count; i++) {
+        middle[i % 2] += growth->plants[i / 2].seed.at[i % 2] / count;
+    }
+    for (uint32_t i = 0; i < 2 * count; i++) {
+        shifts[i / 2][i % 2] = apart * (growth->plants[i / 2].seed.at[i % 2] - middle[i % 2]);
+    }
+    return shifts;
+}
+
 bool fr_growth_is_taken(const FrGrowth *growth, const double point[3]) {
     FrCell cell;
     return fr_voxels_cell(growth->voxels, point, &cell) &&

@@ -430,14 +430,8 @@ FrStatus fr_ecosystem_step(FrEcosystem *ecosystem, FrScene *scene, const FrConte
 
 /// Shows plants where they stand, or farther from the middle of all.
 static void stand_apart(const FrEcosystem *ecosystem, FrScene *scene) {
-    double middle[3] = {0, 0, 0}, apart = scene->params->apart;
     uint32_t count = fr_growth_plant_count(ecosystem->growth);
-    for (uint32_t i = 0; i < count; i++) {
-        FrSeed seed = fr_growth_seed(ecosystem->growth, i);
-        for (int axis = 0; axis < 3; axis++) {
-            middle[axis] += seed.at[axis] / count;
-        }
-    }
+    double(*shifts)[2] = fr_growth_spread(ecosystem->growth, scene->params->apart);
     GHashTable *seeds = g_hash_table_new(NULL, NULL); // of the scene's plants, and one more
     for (uint32_t i = 0; i < count; i++) {
         uint32_t plant = g_array_index(ecosystem->plants, uint32_t, i);
@@ -449,11 +443,12 @@ static void stand_apart(const FrEcosystem *ecosystem, FrScene *scene) {
         if (found != 0) {
             FrSeed seed = fr_growth_seed(ecosystem->growth, found - 1);
             for (int axis = 0; axis < 2; axis++) {
-                stand->at[axis] = seed.at[axis] + apart * (seed.at[axis] - middle[axis]);
+                stand->at[axis] = seed.at[axis] + shifts[found - 1][axis];
             }
         }
     }
     g_hash_table_unref(seeds);
+    g_free(shifts);
 }
 
 FrStatus fr_ecosystem_draw(const FrEcosystem *ecosystem, FrScene *scene, const FrContext *context,

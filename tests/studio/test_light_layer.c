@@ -132,6 +132,35 @@ static void test_growth(Fixture *fixture, gconstpointer data) {
     studio_sight_free(sight);
 }
 
+// Two seeds 2 m from each other, shown two times farther from their middle.
+static const char apart[] =
+    "<frond version=\"1\">\n"
+    "  <plant id=\"tree\"><species/></plant>\n"
+    "  <scene apart=\"2\">\n"
+    "    <growth steps=\"3\" min=\"-4, -4, 0\" max=\"4, 4, 6\" particles=\"40\"/>\n"
+    "    <place plant=\"tree\" at=\"-1, 0, 0\"/>\n"
+    "    <place plant=\"tree\" at=\"1, 0, 0\"/>\n"
+    "  </scene>\n"
+    "</frond>\n";
+
+static void test_apart(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    build(fixture);
+    StudioLightWish wish = {.buds = true, .voxels = true};
+    StudioSight *sight = see(fixture, &wish);
+    for (int layer = 0; layer < 2; layer++) {
+        const StudioOverlay *overlay =
+            sight->layers[layer == 0 ? STUDIO_SIGHT_BUDS : STUDIO_SIGHT_VOXELS];
+        const GArray *marks = layer == 0 ? overlay->points : overlay->lines;
+        g_assert_cmpuint(marks->len, >, 0);
+        for (guint i = 0; i < marks->len; i++) {
+            float x = fabsf(g_array_index(marks, StudioMark, i).at[0]);
+            g_assert_cmpfloat_with_epsilon(x, 3, 0.9); // 1 and two times 1, and as far as they grew
+        }
+    }
+    studio_sight_free(sight);
+}
+
 static void test_dark(Fixture *fixture, gconstpointer data) {
     (void)data;
     build(fixture);
@@ -170,6 +199,8 @@ int main(int argc, char **argv) {
                test_nothing, tear_down);
     g_test_add("/studio/light/buds, occupied space and particles of a growth are shown", Fixture,
                grown, set_up, test_growth, tear_down);
+    g_test_add("/studio/light/buds and cells go with plants that are shown apart", Fixture, apart,
+               set_up, test_apart, tear_down);
     g_test_add("/studio/light/a dark reference is told and harms nothing", Fixture, dark, set_up,
                test_dark, tear_down);
     return g_test_run();

@@ -179,16 +179,17 @@ static void see_light(StudioLightLayer *layer, const FrScene *scene, const Studi
 
 // ---- looking -----------------------------------------------------------------------------------
 
-static void see_growth(const FrGrowth *growth, const StudioLightWish *wish, StudioSight *sight) {
+static void see_growth(const FrGrowth *growth, double apart, const StudioLightWish *wish,
+                       StudioSight *sight) {
     sight->has_growth = growth != NULL;
     if (growth != NULL && wish->buds) {
-        sight->layers[STUDIO_SIGHT_BUDS] = studio_bud_marks(growth);
+        sight->layers[STUDIO_SIGHT_BUDS] = studio_bud_marks(growth, apart);
     }
     if (growth != NULL && wish->voxels) {
-        sight->layers[STUDIO_SIGHT_VOXELS] = studio_voxel_marks(growth);
+        sight->layers[STUDIO_SIGHT_VOXELS] = studio_voxel_marks(growth, apart);
     }
     if (growth != NULL && wish->particles) {
-        sight->layers[STUDIO_SIGHT_PARTICLES] = studio_particle_marks(growth);
+        sight->layers[STUDIO_SIGHT_PARTICLES] = studio_particle_marks(growth, apart);
     }
 }
 
@@ -207,7 +208,7 @@ void studio_light_layer_look(void *user, const StudioSeen *seen, const FrContext
     if (seen->scene->surroundings != NULL) {
         see_light(layer, seen->scene, &wish, &own, sight);
     }
-    see_growth(seen->growth, &wish, sight);
+    see_growth(seen->growth, seen->scene->params->apart, &wish, sight);
     for (size_t i = 0; i < fr_diags_count(own.diags) && sight->problem == NULL; i++) {
         const FrDiag *diag = fr_diags_get(own.diags, i);
         sight->problem = diag->severity == FR_ERROR ? g_strdup(diag->text) : NULL;
