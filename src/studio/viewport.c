@@ -98,7 +98,9 @@ static gboolean on_render(GtkGLArea *area, GdkGLContext *context, gpointer data)
     }
     viewport->display.scale = gtk_widget_get_scale_factor(GTK_WIDGET(area));
     viewport->display.cell = studio_camera_step(&viewport->camera, 0.1);
-    viewport->display.time = (double)g_get_monotonic_time() * 1e-6;
+    gint64 now = g_get_monotonic_time();
+    studio_wind_advance(&viewport->display.wind, (double)(now - viewport->drawn) * 1e-6);
+    viewport->drawn = now;
     bool has_more = studio_renderer_draw(viewport->renderer, &viewport->camera, &viewport->display,
                                          viewport->is_moving || viewport->display.has_wind);
     if (viewport->stamp != NULL) {
@@ -278,6 +280,7 @@ static void studio_viewport_init(StudioViewport *viewport) {
                                         .has_shadow = true,
                                         .has_occlusion = true,
                                         .has_grid = true,
+                                        .wind = studio_wind_default(),
                                         .is_dark = true};
     gtk_gl_area_set_required_version(area, 3, 3);
     // Else a frame that GTK draws for its own reasons, as for the focus, may show an older picture.

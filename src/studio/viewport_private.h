@@ -16,6 +16,7 @@ struct _StudioViewport {
     GHashTable *overlays; // name → StudioOverlay
     double drag_x, drag_y;
     gint64 moved; // when it moved last
+    gint64 drawn; // when it was drawn last
     guint tick;
     gint64 *stamp; // where the time of the next picture goes; NULL: nowhere
 };

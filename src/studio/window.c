@@ -1,5 +1,7 @@
 #include "studio/window_private.h"
 
+#include "studio/wind_menu.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
@@ -348,6 +350,7 @@ StudioWindow *studio_window_new(AdwApplication *application, StudioSettings *set
     window->stack = gtk_stack_new();
     studio_window_add_actions(window);
     studio_window_add_preset_actions(window);
+    studio_wind_add_actions(window);
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
     gtk_box_append(GTK_BOX(box), studio_window_make_header(window));
     gtk_box_append(GTK_BOX(box), GTK_WIDGET(window->toasts));

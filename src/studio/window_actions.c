@@ -318,13 +318,6 @@ static void do_display(GSimpleAction *action, GVariant *state, gpointer data) {
     g_simple_action_set_state(action, state);
 }
 
-static void do_wind(GSimpleAction *action, GVariant *state, gpointer data) {
-    StudioWindow *window = data;
-    studio_viewport_display(window->viewport)->has_wind = g_variant_get_boolean(state);
-    studio_viewport_update(window->viewport);
-    g_simple_action_set_state(action, state);
-}
-
 static void do_side(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
     gtk_stack_set_visible_child_name(GTK_STACK(((StudioWindow *)data)->side),
@@ -411,7 +404,6 @@ void studio_window_add_actions(StudioWindow *window) {
         {.name = "grid", .state = "true", .change_state = do_display},
         {.name = "shadow", .state = "true", .change_state = do_display},
         {.name = "occlusion", .state = "true", .change_state = do_display},
-        {.name = "wind", .state = "false", .change_state = do_wind},
         {.name = "side", .activate = do_side, .parameter_type = "s"},
         {.name = "problem", .activate = do_problem},
         {.name = "preferences", .activate = do_preferences},

@@ -2,6 +2,7 @@
 #include "studio/accessible.h"
 #include "studio/model/graph.h"
 #include "studio/views_menu.h"
+#include "studio/wind_menu.h"
 #include "studio/window_private.h"
 
 #include <string.h>
@@ -221,12 +222,7 @@ static GtkWidget *make_modes(StudioWindow *window) {
     GtkWidget *tools = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
     gtk_widget_add_css_class(tools, "viewport-tools");
     gtk_box_append(GTK_BOX(tools), box);
-    GtkWidget *wind = gtk_toggle_button_new();
-    gtk_button_set_icon_name(GTK_BUTTON(wind), "weather-windy-symbolic");
-    gtk_actionable_set_action_name(GTK_ACTIONABLE(wind), "win.wind");
-    gtk_widget_set_tooltip_text(wind, "Let a wind blow, to look at (W)");
-    studio_name(wind, "Wind");
-    gtk_box_append(GTK_BOX(tools), wind);
+    gtk_box_append(GTK_BOX(tools), studio_wind_button_new(window));
     gtk_box_append(GTK_BOX(tools), icon_button("zoom-fit-best-symbolic", "win.frame",
                                                "Show what is selected, or all (F)"));
     gtk_box_append(GTK_BOX(tools), studio_views_button_new(window));

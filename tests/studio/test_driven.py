@@ -408,6 +408,24 @@ def test_material(run):
     assert studio.state()["digest"] == before["digest"]
 
 
+def test_wind(run):
+    """a wind is set, moves the picture and leaves the document alone"""
+    studio = run.studio
+    before = studio.state()
+    studio.click(studio.middle("wind-menu"))
+    time.sleep(0.4)
+    studio.click(studio.middle("wind-strength", 0.6))
+    run.picture("flower-wind")
+    studio.pointer("key", "Escape")
+    studio.ask("do wind-direction(90.0)")
+    studio.ask("do wind-speed(2.0)")
+    studio.wait()
+    studio.ask("do wind(false)")
+    studio.wait()
+    state = studio.state()
+    assert state["digest"] == before["digest"] and state["steps"] == before["steps"], state
+
+
 def test_curve(run):
     """a curve is drawn by its points"""
     studio = run.studio
@@ -797,7 +815,7 @@ def test_killed(run):
 
 TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_rows,
          test_light, test_lamps, test_patch, test_sketch,
-         test_device, test_flower, test_link, test_preset, test_slider, test_material, test_keys, test_curve, test_view, test_hand,
+         test_device, test_flower, test_link, test_preset, test_slider, test_material, test_keys, test_wind, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
 

@@ -154,12 +154,10 @@ static void use_shadow(const Shot *shot, GLuint program) {
 }
 
 static void use_wind(const Shot *shot, GLuint program) {
-    static const float way[2] = {0.075f, 0.03f};
     double min[3], max[3];
     studio_store_bounds(shot->renderer->store, min, max);
-    bool blows = shot->display->has_wind && max[2] > 0;
-    const float gust[4] = {way[0], way[1], (float)fmod(shot->display->time, 3600),
-                           blows ? (float)max[2] : 0};
+    float gust[4];
+    studio_wind_gust(&shot->display->wind, shot->display->has_wind ? fmax(max[2], 0) : 0, gust);
     studio_program_vec4(program, "gust", gust);
 }
 

@@ -6,6 +6,7 @@
 
 #include "studio/model/camera.h"
 #include "studio/model/overlay.h"
+#include "studio/model/wind.h"
 #include "studio/view/store.h"
 
 typedef struct StudioRenderer StudioRenderer;
@@ -17,9 +18,9 @@ typedef struct StudioDisplay {
     bool has_shadow, has_occlusion, has_grid;
     bool is_dark;
     bool has_wind; ///< a coarse picture that never rests
-    double time;   ///< s, for the wind
-    double cell;   ///< m, of the grid
-    double scale;  ///< pixels of the framebuffer for one of the desktop's
+    StudioWind wind;
+    double cell;  ///< m, of the grid
+    double scale; ///< pixels of the framebuffer for one of the desktop's
 } StudioDisplay;
 
 /// What drawing took; the last of each.
