@@ -2,7 +2,8 @@
 // first ring needs it, is filled from its rim to that ring. Both have the same places and normals
 // there, so the surface is one.
 //
-// It goes over a mesh that is written, in the order of tubes: parents come before what they bear.
+// It goes over a mesh that is written, one generation of branches after the other: where each
+// would be welded is found side by side, and the holes are dug in the order of tubes.
 // Where a hole would meet another's or the parent's end, or would go around it, the branch stays
 // as it was: on a collar that reaches into its parent.
 #include "skin/weld.h"
@@ -15,14 +16,7 @@
 // Quads that a ring keeps away from the rim of its hole.
 #define CLEAR_COLUMNS 0.15F
 #define CLEAR_RINGS 0.08F
-enum { FEET_MOST = 129 };
-
-typedef struct FrWelding {
-    FrPatch *patch;
-    const FrPlan *plan;
-    uint32_t *tube_of; ///< by node, FR_NONE
-    FrWeldGrid *grids; ///< by tube, as they are needed
-} FrWelding;
+enum { FEET_MOST = 129, BRANCH_GRAIN = 4 };
 
 /// The branch's first ring on its parent, and its hole.
 typedef struct FrWeldHole {
@@ -31,6 +25,29 @@ typedef struct FrWeldHole {
     int32_t left, right;  ///< columns of the rim
     uint32_t bottom, top; ///< rings of it
 } FrWeldHole;
+
+/// What fills a hole: vertices of its own, and corners of triangles among them. Owned.
+typedef struct FrWeldPatch {
+    FrVertex *vertices;
+    uint32_t (*triangles)[3];
+    uint32_t vertex_count, triangle_count;
+} FrWeldPatch;
+
+typedef struct FrWeldBranch {
+    const FrTube *tube, *bearer;
+    uint32_t generation; ///< of branches on branches
+    FrWeldHole *hole;    ///< owned, until it is dug or given up; NULL: there is none
+    FrWeldPatch patch;
+    bool is_dug;
+} FrWeldBranch;
+
+typedef struct FrWelding {
+    FrPatch *patch;
+    const FrPlan *plan;
+    uint32_t *tube_of;      ///< by node, FR_NONE
+    FrWeldGrid *grids;      ///< by tube, as they are needed
+    FrWeldBranch *branches; ///< at work
+} FrWelding;
 
 static const FrTube *tube_at(const FrWelding *welding, uint32_t tube) {
     return &g_array_index(welding->plan->tubes, FrTube, tube);
@@ -47,14 +64,13 @@ static uint32_t columns_of(const FrWelding *welding, const FrTube *tube) {
 
 // ---- the hole ----------------------------------------------------------------------------------
 
-static const FrWeldGrid *grid_of(FrWelding *welding, uint32_t tube) {
+static void make_grid(FrWelding *welding, uint32_t tube) {
     FrWeldGrid *grid = &welding->grids[tube];
     if (grid->bands == NULL) {
         const FrTube *parent = tube_at(welding, tube);
         fr_weld_grid_init(grid, vertices_of(welding, parent), columns_of(welding, parent),
                           parent->rings);
     }
-    return grid;
 }
 
 // Finds where the ring is on the parent; false if it goes around it.
@@ -103,7 +119,7 @@ static uint64_t triangles_at(const FrWelding *welding, const FrTube *tube, int32
 }
 
 // Whether every quad of the hole is still there; with `take`, removes them.
-static bool dig(FrWelding *welding, const FrTube *tube, const FrWeldHole *hole, bool take) {
+static bool dig(const FrWelding *welding, const FrTube *tube, const FrWeldHole *hole, bool take) {
     for (uint32_t ring = hole->bottom; ring < hole->top; ring++) {
         for (int32_t column = hole->left; column < hole->right; column++) {
             uint64_t at = triangles_at(welding, tube, column, ring);
@@ -164,25 +180,37 @@ static bool is_turned(const FrWelding *welding, const FrTube *tube, const FrWeld
     return corner[1] != corner[0] + 1;
 }
 
-static bool add_patch(FrWelding *welding, const FrTube *tube, const FrWeldGrid *grid,
-                      const FrWeldHole *hole) {
+// Fills the hole; false if there is no way to.
+static bool make_patch(const FrWelding *welding, const FrTube *tube, const FrWeldGrid *grid,
+                       const FrWeldHole *hole, FrWeldPatch *made) {
     FrVertex vertices[FR_WELD_MOST];
     FrWeldPoint points[FR_WELD_MOST];
     uint32_t triangles[FR_WELD_MOST][3];
     uint32_t rim = walk_rim(grid, hole, vertices, points), feet = hole->foot_count;
     walk_feet(hole, vertices + rim, points + rim);
-    uint32_t count = fr_weld_strip(points, rim, points + rim, feet, triangles);
-    if (count == 0) {
+    made->triangle_count = fr_weld_strip(points, rim, points + rim, feet, triangles);
+    if (made->triangle_count == 0) {
         return false;
     }
     bool turned = is_turned(welding, tube, hole);
-    uint32_t first = fr_patch_add(welding->patch, tube->slot, vertices, rim + feet);
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t corner[3] = {first + triangles[i][0], first + triangles[i][turned ? 2 : 1],
-                                    first + triangles[i][turned ? 1 : 2]};
-        fr_patch_add_triangle(welding->patch, tube->slot, corner);
+    for (uint32_t i = 0; turned && i < made->triangle_count; i++) {
+        uint32_t kept = triangles[i][1];
+        triangles[i][1] = triangles[i][2];
+        triangles[i][2] = kept;
     }
+    made->vertex_count = rim + feet;
+    made->vertices = g_memdup2(vertices, made->vertex_count * sizeof *vertices);
+    made->triangles = g_memdup2(triangles, made->triangle_count * sizeof *triangles);
     return true;
+}
+
+static void add_patch(FrWelding *welding, const FrWeldPatch *made, uint32_t slot) {
+    uint32_t first = fr_patch_add(welding->patch, slot, made->vertices, made->vertex_count);
+    for (uint32_t i = 0; i < made->triangle_count; i++) {
+        const uint32_t *corner = made->triangles[i];
+        const uint32_t own[3] = {first + corner[0], first + corner[1], first + corner[2]};
+        fr_patch_add_triangle(welding->patch, slot, own);
+    }
 }
 
 // ---- one branch --------------------------------------------------------------------------------
@@ -207,26 +235,65 @@ static void move_collar(const FrTube *tube, uint32_t columns, const FrWeldHole *
     }
 }
 
-static void weld_tube(FrWelding *welding, const FrTube *tube) {
+// The tube that a branch can be welded to, NULL if there is none.
+static const FrTube *bearer_of(const FrWelding *welding, const FrTube *tube) {
     const FrPlan *plan = welding->plan;
     uint32_t parent = welding->tube_of[plan->plant->axes.bearer[tube->axis]];
-    uint32_t columns = columns_of(welding, tube);
-    if (parent == FR_NONE || columns - 1 >= FEET_MOST) {
-        return;
+    if (parent == FR_NONE || columns_of(welding, tube) - 1 >= FEET_MOST) {
+        return NULL;
     }
     const FrTube *bearer = tube_at(welding, parent);
-    if (bearer->rings < 2 || !plan->sections[bearer->section].is_closed ||
-        bearer->scope != tube->scope) {
-        return;
+    bool can_bear = bearer->rings >= 2 && plan->sections[bearer->section].is_closed &&
+                    bearer->scope == tube->scope;
+    return can_bear ? bearer : NULL;
+}
+
+static uint32_t number_of(const FrWelding *welding, const FrTube *tube) {
+    return (uint32_t)(tube - tube_at(welding, 0));
+}
+
+// Finds the holes of some branches and fills them, as if there were no others.
+static void find_holes(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const FrWelding *welding = data;
+    for (size_t i = begin; i < end; i++) {
+        FrWeldBranch *branch = &welding->branches[i];
+        const FrWeldGrid *grid = &welding->grids[number_of(welding, branch->bearer)];
+        const FrVertex *ring = vertices_of(welding, branch->tube);
+        uint32_t feet = columns_of(welding, branch->tube) - 1;
+        FrWeldHole hole = {0};
+        if (find_feet(grid, ring, feet, &hole) && find_rim(grid, &hole) &&
+            make_patch(welding, branch->bearer, grid, &hole, &branch->patch)) {
+            branch->hole = g_memdup2(&hole, sizeof hole);
+        }
     }
-    const FrWeldGrid *grid = grid_of(welding, parent);
-    FrVertex *ring = vertices_of(welding, tube);
-    FrWeldHole hole = {0};
-    if (find_feet(grid, ring, columns - 1, &hole) && find_rim(grid, &hole) &&
-        dig(welding, bearer, &hole, false) && add_patch(welding, bearer, grid, &hole)) {
-        dig(welding, bearer, &hole, true);
-        move_collar(tube, columns, &hole, ring);
+}
+
+// Digs the holes that meet no other, in the order of tubes.
+static void dig_holes(FrWelding *welding, uint32_t begin, uint32_t end) {
+    for (uint32_t i = begin; i < end; i++) {
+        FrWeldBranch *branch = &welding->branches[i];
+        if (branch->hole != NULL && dig(welding, branch->bearer, branch->hole, false)) {
+            dig(welding, branch->bearer, branch->hole, true);
+            move_collar(branch->tube, columns_of(welding, branch->tube), branch->hole,
+                        vertices_of(welding, branch->tube));
+            branch->is_dug = true;
+        }
+        g_clear_pointer(&branch->hole, g_free);
     }
+}
+
+static gint by_generation(gconstpointer a, gconstpointer b) {
+    const FrWeldBranch *one = a, *other = b;
+    if (one->generation != other->generation) {
+        return one->generation < other->generation ? -1 : 1;
+    }
+    return one->tube < other->tube ? -1 : one->tube > other->tube;
+}
+
+static gint by_tube(gconstpointer a, gconstpointer b) {
+    const FrWeldBranch *one = a, *other = b;
+    return one->tube < other->tube ? -1 : one->tube > other->tube;
 }
 
 // ---- the whole ---------------------------------------------------------------------------------
@@ -246,6 +313,37 @@ static uint32_t *tubes_by_node(const FrPlan *plan) {
     return tube_of;
 }
 
+// All that may be welded, generation after generation: what a branch stands on has moved before.
+static GArray *find_branches(const FrWelding *welding) {
+    const FrPlan *plan = welding->plan;
+    GArray *branches = g_array_new(FALSE, FALSE, sizeof(FrWeldBranch));
+    uint32_t *generation = g_new0(uint32_t, plan->tubes->len);
+    for (uint32_t i = 0; i < plan->tubes->len; i++) {
+        const FrTube *tube = tube_at(welding, i);
+        const FrTube *bearer = tube->is_welded && tube->rings > 0 ? bearer_of(welding, tube) : NULL;
+        if (bearer != NULL) {
+            generation[i] = 1 + generation[number_of(welding, bearer)];
+            FrWeldBranch branch = {.tube = tube, .bearer = bearer, .generation = generation[i]};
+            g_array_append_val(branches, branch);
+        }
+    }
+    g_free(generation);
+    g_array_sort(branches, by_generation);
+    return branches;
+}
+
+static void weld_generation(FrWelding *welding, uint32_t begin, uint32_t end) {
+    const FrContext *context = welding->plan->context;
+    for (uint32_t i = begin; i < end; i++) {
+        make_grid(welding, number_of(welding, welding->branches[i].bearer));
+    }
+    FrWeldBranch *all = welding->branches;
+    welding->branches = all + begin;
+    fr_parallel_for(context->pool, end - begin, BRANCH_GRAIN, find_holes, welding, NULL);
+    welding->branches = all;
+    dig_holes(welding, begin, end);
+}
+
 FrStatus fr_weld(FrPatch *patch) {
     const FrPlan *plan = &patch->job->wood->plan;
     FrWelding welding = {
@@ -254,14 +352,27 @@ FrStatus fr_weld(FrPatch *patch) {
         .tube_of = tubes_by_node(plan),
         .grids = g_new0(FrWeldGrid, plan->tubes->len),
     };
+    GArray *branches = find_branches(&welding);
+    welding.branches = (FrWeldBranch *)(void *)branches->data;
     FrStatus status = FR_OK;
-    for (uint32_t i = 0; i < plan->tubes->len && status == FR_OK; i++) {
-        const FrTube *tube = tube_at(&welding, i);
-        if (tube->is_welded && tube->rings > 0) {
-            weld_tube(&welding, tube);
+    for (uint32_t begin = 0, end = 0; begin < branches->len && status == FR_OK; begin = end) {
+        while (end < branches->len &&
+               welding.branches[end].generation == welding.branches[begin].generation) {
+            end++;
         }
+        weld_generation(&welding, begin, end);
         status = fr_progress_is_cancelled(plan->context->progress) ? FR_CANCELLED : FR_OK;
     }
+    g_array_sort(branches, by_tube);
+    for (uint32_t i = 0; i < branches->len; i++) {
+        FrWeldBranch *branch = &welding.branches[i];
+        if (branch->is_dug) {
+            add_patch(&welding, &branch->patch, branch->bearer->slot);
+        }
+        g_free(branch->patch.vertices);
+        g_free(branch->patch.triangles);
+    }
+    g_array_unref(branches);
     for (uint32_t i = 0; i < plan->tubes->len; i++) {
         fr_weld_grid_clear(&welding.grids[i]);
     }
