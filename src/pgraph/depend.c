@@ -41,7 +41,7 @@ FrDigest fr_depend_inputs(const FrPgraph *graph) {
 
 static FrDigest digest_component(const FrExpansion *expansion, uint32_t component) {
     const FrPrepared *prepared = &expansion->prepared[component];
-    uint64_t head[] = {prepared->kind, prepared->key_word, prepared->bears};
+    uint64_t head[] = {prepared->kind, prepared->key_word, prepared->bears, prepared->bears_welded};
     FrDigest digest = fr_digest(0, head, sizeof head);
     for (guint k = 0; prepared->weights != NULL && k < prepared->weights->len; k++) {
         const FrWeight *weight = &g_array_index(prepared->weights, FrWeight, k);

@@ -451,6 +451,8 @@ FrStatus fr_prepare(FrPrepared **prepared_out, const FrPgraph *graph,
         FrPrepared *from = &prepared[link->from];
         from->bears |=
             fr_is_spreading(from->kind) || (from->kind == FR_COMPONENT_TREE && is_branch);
+        from->bears_welded |= from->kind == FR_COMPONENT_TREE && is_branch &&
+                              prepared[link->to].finished.junction == FR_JUNCTION_WELDED;
     }
     note_stems(prepared, graph);
     return FR_OK;

@@ -41,6 +41,7 @@ typedef struct FrPrepared {
     bool is_ahead;     ///< a stem as long as its way to an obstacle
     bool is_aligned;   ///< a stem that turns to the direction of what it stands on
     bool bears;        ///< multiplies at least one link
+    bool bears_welded; ///< branches that are to be one surface with it
     uint32_t along;    ///< parameters of a stem that differ along it, bits 1 << FrAlong
     uint32_t profile;  ///< cross-section, of the plant; FR_NONE
     uint32_t finish;   ///< of a stem, of the plant; the next is that of a broken one; FR_NONE

@@ -19,6 +19,8 @@ enum { INTERNODES_OF_BUTTRESS = 8, MOST_FOR_BUTTRESS = 64, INTERNODES_OF_FURROW 
 #define BEND_PER_INTERNODE (4 * DEGREE)
 #define LEAST_BEND (1 * DEGREE)
 #define LEAST_INTERNODES_OF_BEND 3
+#define INTERNODE_OF_WELD 1.0 // over the stem's radius
+#define MOST_FOR_WELD 64
 // A gnarl makes so many times its own angle of turn, and shows less of each; never more internodes
 // for one gnarl than show its form.
 #define GNARL_PER_INTERNODE (12 * DEGREE)
@@ -53,6 +55,14 @@ static double finished_internodes(const FrStem *stem) {
         count = fmax(count, INTERNODES_OF_FURROW * stem->length / furrow);
     }
     return count;
+}
+
+// Holes reach from ring to ring, and rings stand at nodes: few far apart would meet.
+static double welded_internodes(const FrStem *stem) {
+    const FrTreeParams *tree = stem->prepared->params;
+    bool is_free = stem->prepared->bears_welded && stem->radius > 0 &&
+                   tree->mode != FR_BRANCHES_AT_NODES; // which would be more then
+    return is_free ? fmin(stem->length / (INTERNODE_OF_WELD * stem->radius), MOST_FOR_WELD) : 0;
 }
 
 // So many that a gnarl shows, at least `count`.
@@ -118,7 +128,7 @@ static uint32_t adaptive_internodes(const FrStem *stem) {
     if (stem->flare > 0) {
         count = fmax(count, fmin(INTERNODES_OF_FLARE / params->flare_height, MOST_FOR_FLARE));
     }
-    count = fmax(count, finished_internodes(stem));
+    count = fmax(count, fmax(finished_internodes(stem), welded_internodes(stem)));
     if (stem->step > 0) {
         count = fmax(count, stem->length / stem->step);
     }

@@ -322,6 +322,33 @@ static void outlines(void) {
     g_strfreev(names);
 }
 
+// A stem that bears welded branches has internodes for their holes; others do not change.
+static void welded(void) {
+    const char *text =
+        "tree T length=2;radius=.1;number=3;%s\nhorn H length=.3;radius=.02;%s\nT = H";
+    const struct {
+        const char *tree, *horn;
+        uint32_t internodes;
+    } cases[] = {
+        {"", "", 1},
+        {"", "junction=welded", 20},
+        {"segments=3", "junction=welded", 3},
+        {"mode=nodes", "junction=welded", 1},
+        {"junction=welded", "", 1},
+    };
+    for (size_t k = 0; k < G_N_ELEMENTS(cases); k++) {
+        char *own = g_strdup_printf(text, cases[k].tree, cases[k].horn);
+        Built built = build_graph(graph_read(own), NULL);
+        uint32_t internodes = 0;
+        for (uint32_t n = 0; n < built.plant->nodes.count; n++) {
+            internodes += built.plant->nodes.axis[n] == 0;
+        }
+        g_assert_cmpuint(internodes, ==, cases[k].internodes);
+        built_free(built);
+        g_free(own);
+    }
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
 #define TEST(name, function) g_test_add_func("/pgraph/" name, function)
@@ -343,5 +370,6 @@ int main(int argc, char **argv) {
     TEST("C8 every outline is as wide as the leaf", outlines);
     TEST("leaves of random form share a few shapes", leaf_shapes_shared);
     TEST("F7 leaves bend by their iteration", agave);
+    g_test_add_func("/pgraph/stem/what bears welded branches has internodes for them", welded);
     return g_test_run();
 }
