@@ -230,6 +230,16 @@ void studio_sketch_panel_end(StudioSketchPanel *panel) {
     studio_viewport_forget(panel->viewport);
 }
 
+void studio_sketch_panel_set_widths(StudioSketchPanel *panel, const int widths[2]) {
+    gtk_paned_set_position(GTK_PANED(panel->outer), widths[0]);
+    gtk_paned_set_position(GTK_PANED(panel->inner), widths[1]);
+}
+
+void studio_sketch_panel_get_widths(StudioSketchPanel *panel, int widths[2]) {
+    widths[0] = gtk_paned_get_position(GTK_PANED(panel->outer));
+    widths[1] = gtk_paned_get_position(GTK_PANED(panel->inner));
+}
+
 gboolean studio_sketch_panel_is_idle(StudioSketchPanel *panel) {
     double fraction, seconds;
     if (panel->document == NULL) {

@@ -17,6 +17,9 @@ G_DECLARE_FINAL_TYPE(StudioSketchPanel, studio_sketch_panel, STUDIO, SKETCH_PANE
 
 /// Its commands become actions of `actions`, all called "sketch-…".
 GtkWidget *studio_sketch_panel_new(GActionMap *actions);
+/// How wide its first two panes are, as far as there is room.
+void studio_sketch_panel_set_widths(StudioSketchPanel *panel, const int widths[2]);
+void studio_sketch_panel_get_widths(StudioSketchPanel *panel, int widths[2]);
 /// Begins to sketch over a plant (FR_NONE: none), or over the plant a variation is of.
 void studio_sketch_panel_begin(StudioSketchPanel *panel, StudioDocument *document, uint32_t plant);
 /// The document has changed.

@@ -2,6 +2,7 @@
 #include "studio/accessible.h"
 #include "studio/param_row.h"
 #include "studio/sketch_panel_private.h"
+#include "studio/wrap_box.h"
 
 #include "studio/model/commands.h"
 
@@ -46,23 +47,31 @@ static GtkWidget *toggle(const char *label, const char *action, const char *tip)
     return button;
 }
 
-// A pane: its title with tools in one or two rows, and what it shows.
+// A pane: its title with tools in as many rows as they need, and what it shows.
 static GtkWidget *pane_of(const char *title, GtkWidget *first, GtkWidget *second,
                           GtkWidget *content) {
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
     GtkWidget *rows = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
     GtkWidget *heading = gtk_label_new(title);
     gtk_widget_add_css_class(heading, "heading");
-    gtk_label_set_xalign(GTK_LABEL(heading), 0);
-    gtk_widget_set_hexpand(heading, TRUE);
-    gtk_box_prepend(GTK_BOX(first), heading);
+    gtk_widget_set_size_request(heading, -1, 34); // as high as the buttons beside it
+    gtk_widget_set_margin_end(heading, 6);
+    gtk_widget_insert_after(heading, first, NULL);
     gtk_widget_add_css_class(rows, "sketch-tools");
     gtk_box_append(GTK_BOX(rows), first);
     gtk_box_append(GTK_BOX(rows), second);
     gtk_box_append(GTK_BOX(box), rows);
     gtk_box_append(GTK_BOX(box), content);
     gtk_widget_set_vexpand(content, TRUE);
-    gtk_widget_set_size_request(box, 300, -1);
+    gtk_widget_set_size_request(box, 240, -1);
+    return box;
+}
+
+static GtkWidget *tools_of(GtkWidget *const *parts, size_t count) {
+    GtkWidget *box = studio_wrap_box_new(6);
+    for (size_t i = 0; i < count; i++) {
+        studio_wrap_box_append(STUDIO_WRAP_BOX(box), parts[i]);
+    }
     return box;
 }
 
@@ -165,8 +174,8 @@ static GtkWidget *make_strokes(StudioSketchPanel *panel) {
         icon_button("media-playback-start-symbolic", "win.sketch-play",
                     "Let wind, sun and rain come up"),
         place};
-    return pane_of("Drawn", row_of(first, G_N_ELEMENTS(first)),
-                   row_of(second, G_N_ELEMENTS(second)), panel->pages);
+    return pane_of("Drawn", tools_of(first, G_N_ELEMENTS(first)),
+                   tools_of(second, G_N_ELEMENTS(second)), panel->pages);
 }
 
 // ---- the board ---------------------------------------------------------------------------------
@@ -228,8 +237,8 @@ static GtkWidget *make_board(StudioSketchPanel *panel) {
     GtkWidget *second[] = {choice_of("win.sketch-board", boards, G_N_ELEMENTS(boards)),
                            toggle("Tilt", "win.sketch-tilt", "The tilt of a pen moves the board"),
                            panel->device_button};
-    return pane_of("Board", row_of(first, G_N_ELEMENTS(first)),
-                   row_of(second, G_N_ELEMENTS(second)), content);
+    return pane_of("Board", tools_of(first, G_N_ELEMENTS(first)),
+                   tools_of(second, G_N_ELEMENTS(second)), content);
 }
 
 // ---- the skeleton ------------------------------------------------------------------------------
@@ -273,8 +282,8 @@ static GtkWidget *make_skeleton(StudioSketchPanel *panel) {
                            toggle("One Path", "win.sketch-keeps-path",
                                   "When the pen is lifted, of branches that are not certain only "
                                   "the one most touched is chosen; else all of them")};
-    return pane_of("Skeleton", row_of(first, G_N_ELEMENTS(first)),
-                   row_of(second, G_N_ELEMENTS(second)), GTK_WIDGET(panel->skeleton));
+    return pane_of("Skeleton", tools_of(first, G_N_ELEMENTS(first)),
+                   tools_of(second, G_N_ELEMENTS(second)), GTK_WIDGET(panel->skeleton));
 }
 
 // ---- the bar above -----------------------------------------------------------------------------
@@ -403,8 +412,6 @@ void studio_sketch_make(StudioSketchPanel *panel) {
     }
     studio_name(panel->outer, "Divider between result and board");
     studio_name(panel->inner, "Divider between board and skeleton");
-    gtk_paned_set_position(GTK_PANED(panel->outer), 430);
-    gtk_paned_set_position(GTK_PANED(panel->inner), 500);
     gtk_widget_set_vexpand(panel->outer, TRUE);
     gtk_box_append(GTK_BOX(panel), make_bar(panel));
     gtk_box_append(GTK_BOX(panel), panel->outer);

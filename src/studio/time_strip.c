@@ -259,7 +259,10 @@ void studio_time_strip_show_growth(StudioTimeStrip *strip, uint64_t step, uint64
     strip->is_growing = TRUE;
     strip->step = step;
     strip->step_count = count;
-    char *text = g_strdup_printf("Step %" G_GUINT64_FORMAT " of %" G_GUINT64_FORMAT, step, count);
+    char *text =
+        step > count // farther than the document goes by itself
+            ? g_strdup_printf("Step %" G_GUINT64_FORMAT, step)
+            : g_strdup_printf("Step %" G_GUINT64_FORMAT " of %" G_GUINT64_FORMAT, step, count);
     gtk_label_set_text(GTK_LABEL(strip->grown), text);
     gtk_widget_set_sensitive(strip->undo, step > 0);
     gtk_widget_set_sensitive(strip->begin, step > 0);

@@ -65,6 +65,8 @@ static void update_panels(StudioWindow *window) {
     studio_graph_panel_show(window->graph, window->document, studio_window_plant(window), selected);
     studio_things_panel_show(window->things, window->document, selected);
     studio_inspector_show(window->inspector, window->document, selected, window->diags);
+    studio_levels_panel_show(window->levels, window->document, selected,
+                             studio_window_plant(window));
     studio_time_strip_show(window->strip, window->document, studio_window_plant(window), selected);
     studio_light_mode_update(window->light);
     studio_scene_tool_update(window->scene);
@@ -158,6 +160,7 @@ void studio_window_show_problem(StudioWindow *window) {
         span.source == NULL ? FR_NONE : fr_contents_around(contents, span.begin, &attribute);
     if (element != FR_NONE && attribute != NULL) {
         studio_window_select(window, element);
+        studio_levels_panel_open(window->levels);
         studio_inspector_reveal(window->inspector, attribute);
     } else {
         gtk_stack_set_visible_child_name(GTK_STACK(window->side), "text");
@@ -212,6 +215,7 @@ void studio_window_take(StudioWindow *window, StudioDocument *document) {
     window->document = document;
     window->moment = (StudioMoment){NAN, -1};
     studio_inspector_show(window->inspector, document, FR_NONE, NULL);
+    studio_levels_panel_show(window->levels, document, FR_NONE, FR_NONE);
     studio_inspector_set_time(window->inspector, NAN);
     studio_time_strip_reset(window->strip);
     g_clear_pointer(&window->selected, g_free);
@@ -295,10 +299,15 @@ static void remember_sizes(StudioWindow *window) {
     studio_settings_set_bool(window->settings, "maximized",
                              gtk_window_is_maximized(GTK_WINDOW(window)));
     if (window->document != NULL) {
+        int sketch[2];
+        studio_sketch_panel_get_widths(window->sketch, sketch);
+        studio_settings_set_int(window->settings, "sketch-width", sketch[0]);
+        studio_settings_set_int(window->settings, "sketch-board-width", sketch[1]);
         studio_settings_set_int(window->settings, "side-width",
                                 gtk_paned_get_position(GTK_PANED(window->outer)));
-        studio_settings_set_int(window->settings, "inspector-width",
-                                gtk_widget_get_width(GTK_WIDGET(window->inspector)));
+        studio_settings_set_int(
+            window->settings, "inspector-width",
+            gtk_widget_get_width(gtk_paned_get_end_child(GTK_PANED(window->inner))));
     }
     studio_settings_save(window->settings);
 }

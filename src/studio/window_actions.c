@@ -268,7 +268,8 @@ static void do_set(GSimpleAction *action, GVariant *parameter, gpointer data) {
 static void do_inspect(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
     (void)parameter;
-    gtk_widget_child_focus(GTK_WIDGET(((StudioWindow *)data)->inspector), GTK_DIR_TAB_FORWARD);
+    gtk_widget_child_focus(gtk_paned_get_end_child(GTK_PANED(((StudioWindow *)data)->inner)),
+                           GTK_DIR_TAB_FORWARD);
 }
 
 static void do_select(GSimpleAction *action, GVariant *parameter, gpointer data) {

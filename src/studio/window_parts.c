@@ -334,14 +334,21 @@ static GtkWidget *make_middle(StudioWindow *window) {
 GtkWidget *studio_window_make_panes(StudioWindow *window) {
     window->inspector = STUDIO_INSPECTOR(studio_inspector_new());
     g_signal_connect(window->inspector, "selected", G_CALLBACK(on_selected), window);
-    gtk_widget_set_size_request(GTK_WIDGET(window->inspector), 280, -1);
+    window->levels = STUDIO_LEVELS_PANEL(
+        studio_levels_panel_new(window->settings, GTK_WIDGET(window->inspector)));
+    GtkWidget *column = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+    gtk_widget_set_vexpand(GTK_WIDGET(window->inspector), TRUE);
+    gtk_box_append(GTK_BOX(column), GTK_WIDGET(window->levels));
+    gtk_box_append(GTK_BOX(column), GTK_WIDGET(window->inspector));
+    gtk_widget_set_size_request(column, 280, -1);
+    gtk_widget_add_css_class(column, "inspector");
     window->inner = gtk_paned_new(GTK_ORIENTATION_HORIZONTAL);
     window->outer = gtk_paned_new(GTK_ORIENTATION_HORIZONTAL);
     studio_name(window->inner, "Divider between picture and inspector");
     studio_name(window->outer, "Divider between panel and picture");
     GtkPaned *inner = GTK_PANED(window->inner), *outer = GTK_PANED(window->outer);
     gtk_paned_set_start_child(inner, make_middle(window));
-    gtk_paned_set_end_child(inner, GTK_WIDGET(window->inspector));
+    gtk_paned_set_end_child(inner, column);
     gtk_paned_set_resize_end_child(inner, FALSE);
     gtk_paned_set_shrink_start_child(inner, FALSE);
     gtk_paned_set_shrink_end_child(inner, FALSE);

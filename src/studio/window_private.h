@@ -5,6 +5,7 @@
 #include "studio/files.h"
 #include "studio/graph_panel.h"
 #include "studio/inspector.h"
+#include "studio/levels_panel.h"
 #include "studio/light_mode.h"
 #include "studio/model/builder.h"
 #include "studio/model/commands.h"
@@ -53,6 +54,7 @@ struct _StudioWindow {
     StudioTextPanel *text, *lsystem;
     StudioStringPanel *string;
     StudioInspector *inspector;
+    StudioLevelsPanel *levels; ///< above the inspector
     StudioTimeStrip *strip;
     StudioLightMode *light;
     StudioSketchPanel *sketch;

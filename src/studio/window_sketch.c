@@ -53,6 +53,9 @@ void studio_window_add_sketch(StudioWindow *window) {
         {.name = "sketch", .state = "false", .change_state = do_sketch}};
     g_action_map_add_action_entries(G_ACTION_MAP(window), entries, G_N_ELEMENTS(entries), window);
     window->sketch = STUDIO_SKETCH_PANEL(studio_sketch_panel_new(G_ACTION_MAP(window)));
+    const int widths[2] = {studio_settings_int(window->settings, "sketch-width", 430),
+                           studio_settings_int(window->settings, "sketch-board-width", 500)};
+    studio_sketch_panel_set_widths(window->sketch, widths);
     g_signal_connect(window->sketch, "said", G_CALLBACK(on_said), window);
     gtk_stack_add_named(GTK_STACK(window->stack), GTK_WIDGET(window->sketch), "sketch");
 }

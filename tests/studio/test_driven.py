@@ -181,6 +181,30 @@ def test_grove(run):
     run.picture("grove-grown")
 
 
+def test_levels(run):
+    """a species has three levels; one of its six numbers is dragged as one step"""
+    studio = run.studio
+    before = studio.state()
+    studio.ask("do select::tree")
+    studio.click(studio.middle("level-1"))
+    run.picture("levels-plant")
+    studio.click(studio.middle("level-2"))
+    studio.wait()
+    x, y, width, height = studio.where("six-gravity")
+    studio.drag([x + width / 2, y + height / 2], [x + 0.2 * width, y + height / 2])
+    studio.wait()
+    state = studio.state()
+    assert state["steps"] == before["steps"] + 1, state
+    assert '<sliders gravity="-' in studio.text(run.home), studio.text(run.home)
+    run.picture("levels-shape")
+    studio.click(studio.middle("level-3"))
+    run.picture("levels-all")
+    studio.click(studio.middle("level-2"))
+    studio.ask("do undo")
+    studio.wait()
+    assert studio.state()["digest"] == before["digest"]
+
+
 def test_arrange(run):
     """a tree is moved by its handle, others are painted and taken out, a road is drawn"""
     studio = run.studio
@@ -701,12 +725,16 @@ def test_sketch(run):
 
 
 def test_device(run):
-    """a device draws by lines of text, and keys choose and draw as the pointer does"""
+    """a device draws by lines of text, and keys choose and draw as the pointer does, in little room"""
     studio = run.studio
+    studio.ask("size 1024 768")
     studio.ask(f"open {os.path.join(run.home, 'strokes.frond')}")
     studio.wait()
     studio.ask("do sketch")
     studio.wait()
+    left, _, width, height = studio.where("sketch-skeleton")
+    assert left + width <= 1024 and width > 200 and height > 300, (left, width, height)
+    run.picture("sketch-small")
     studio.click(studio.middle("sketch-skeleton", 0.15, 0.06))
     studio.pointer("key", "Home")
     studio.wait()
@@ -729,6 +757,7 @@ def test_device(run):
     studio.wait()
     assert studio.state()["steps"] == 2, studio.state()
     studio.ask("do sketch")
+    studio.ask("size 1440 900")
     studio.undo_all()
     studio.ask(f"open {run.file}")
     studio.wait()
@@ -813,7 +842,7 @@ def test_killed(run):
 
 
 
-TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_arrange, test_rows,
+TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_levels, test_arrange, test_rows,
          test_light, test_lamps, test_patch, test_sketch,
          test_device, test_flower, test_link, test_preset, test_slider, test_material, test_keys, test_wind, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
