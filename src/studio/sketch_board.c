@@ -166,17 +166,23 @@ static void to_board(StudioSketchBoard *board, double px, double py, double *x, 
     *y = (0.5 * height - py) / height * board->board.size;
 }
 
+// NAN: the pen does not tell it.
+static double axis_of(GdkEvent *event, GdkAxisUse axis) {
+    double value;
+    return gdk_event_get_axis(event, axis, &value) ? value : NAN;
+}
+
 // How hard the pen is pressed; a tilted one moves the plane.
 static double read_pen(StudioSketchBoard *board, GtkGesture *gesture) {
     GdkEvent *event = gtk_event_controller_get_current_event(GTK_EVENT_CONTROLLER(gesture));
-    double pressure = 1, tilt;
     if (event == NULL || gdk_event_get_device_tool(event) == NULL) {
         return 1; // a mouse
     }
-    if (board->is_tilting && gdk_event_get_axis(event, GDK_AXIS_YTILT, &tilt)) {
-        raise_to(board, -tilt * board->board.reach, now(board));
+    double tilt = axis_of(event, GDK_AXIS_YTILT);
+    if (board->is_tilting && !isnan(tilt)) {
+        raise_to(board, studio_board_lean(&board->board, tilt), now(board));
     }
-    return gdk_event_get_axis(event, GDK_AXIS_PRESSURE, &pressure) ? CLAMP(pressure, 0, 1) : 1;
+    return studio_pen_pressure(axis_of(event, GDK_AXIS_PRESSURE));
 }
 
 static void on_begin(GtkGestureDrag *drag, double px, double py, StudioSketchBoard *board) {

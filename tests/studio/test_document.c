@@ -4,6 +4,7 @@
 
 #include <glib/gstdio.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -200,29 +201,78 @@ static void test_broken(void) {
     studio_document_free(document);
 }
 
-static void test_unchanged_save(void) {
-    static const char *const names[] = {"examples/chestnut.frond", "examples/sunflower.frond",
-                                        "data/presets/oak.frond"};
-    char *folder = g_dir_make_tmp("studio-XXXXXX", NULL);
-    for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
-        StudioDocument *document = open_example(names[i]);
-        char *path = g_build_filename(folder, "x.frond", NULL), *from = project_file(names[i]);
-        g_assert_cmpint(studio_document_save(document, path, NULL), ==, FR_OK);
-        char *written, *read;
-        gsize written_size, read_size;
-        g_assert_true(g_file_get_contents(path, &written, &written_size, NULL));
-        g_assert_true(g_file_get_contents(from, &read, &read_size, NULL));
-        g_assert_cmpuint(written_size, ==, read_size);
-        g_assert_true(memcmp(written, read, read_size) == 0);
-        g_assert_cmpstr(studio_document_name(document), ==, "x.frond");
-        g_free(written);
-        g_free(read);
-        g_unlink(path);
-        g_free(path);
-        g_free(from);
-        studio_document_free(document);
+static void assert_saved_unchanged(const char *folder, const char *name) {
+    StudioDocument *document = open_example(name);
+    char *path = g_build_filename(folder, "x.frond", NULL), *from = project_file(name);
+    g_assert_cmpint(studio_document_save(document, path, NULL), ==, FR_OK);
+    char *written, *read;
+    gsize written_size, read_size;
+    g_assert_true(g_file_get_contents(path, &written, &written_size, NULL));
+    g_assert_true(g_file_get_contents(from, &read, &read_size, NULL));
+    if (written_size != read_size || memcmp(written, read, read_size) != 0) {
+        g_error("%s: other bytes are saved", name);
     }
-    g_rmdir(folder);
+    g_assert_cmpstr(studio_document_name(document), ==, "x.frond");
+    g_free(written);
+    g_free(read);
+    g_unlink(path);
+    g_free(path);
+    g_free(from);
+    studio_document_free(document);
+}
+
+static void test_unchanged_save(void) {
+    static const char *const folders[] = {"examples", "data/presets"};
+    char *saved = g_dir_make_tmp("studio-XXXXXX", NULL);
+    for (size_t i = 0; i < G_N_ELEMENTS(folders); i++) {
+        char *folder = project_file(folders[i]);
+        GDir *dir = g_dir_open(folder, 0, NULL);
+        int count = 0;
+        for (const char *file; (file = g_dir_read_name(dir)) != NULL;) {
+            char *name = g_build_filename(folders[i], file, NULL);
+            if (g_str_has_suffix(name, ".frond")) {
+                assert_saved_unchanged(saved, name);
+                count++;
+            }
+            g_free(name);
+        }
+        g_assert_cmpint(count, >, 20);
+        g_dir_close(dir);
+        g_free(folder);
+    }
+    g_rmdir(saved);
+    g_free(saved);
+}
+
+// A file may not grow beyond some bytes: as on a disk that is full.
+static void test_full_disk(void) {
+    char *folder = g_dir_make_tmp("studio-XXXXXX", NULL);
+    char *path = g_build_filename(folder, "x.frond", NULL), *read;
+    gsize size, size_after;
+    StudioDocument *document = small_document();
+    g_assert_cmpint(studio_document_save(document, path, NULL), ==, FR_OK);
+    g_assert_true(g_file_get_contents(path, &read, &size, NULL));
+    g_free(read);
+    studio_set(document, element_of(document, "stem"), "length", "2", false);
+    struct rlimit before, little = {16, RLIM_INFINITY};
+    FrDiags *diags = fr_diags_new();
+    getrlimit(RLIMIT_FSIZE, &before);
+    void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &little);
+    FrStatus status = studio_document_save(document, path, diags);
+    setrlimit(RLIMIT_FSIZE, &before);
+    signal(SIGXFSZ, handler);
+    g_assert_cmpint(status, ==, FR_ERR_MACHINE);
+    g_assert_cmpuint(fr_diags_error_count(diags), ==, 1);
+    g_assert_false(studio_document_is_saved(document));
+    g_assert_true(g_file_get_contents(path, &read, &size_after, NULL));
+    g_assert_cmpuint(size_after, ==, size);
+    g_free(read);
+    fr_diags_free(diags);
+    studio_document_free(document);
+    g_unlink(path);
+    g_assert_cmpint(g_rmdir(folder), ==, 0); // nothing is left beside it
+    g_free(path);
     g_free(folder);
 }
 
@@ -362,7 +412,10 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/document/a new name reaches links and edits", test_rename);
     g_test_add_func("/studio/document/edits by hand are gathered", test_hand);
     g_test_add_func("/studio/document/a broken text refuses edits of elements", test_broken);
-    g_test_add_func("/studio/document/saved unchanged it is the same file", test_unchanged_save);
+    g_test_add_func("/studio/document/every example saved unchanged is the same file",
+                    test_unchanged_save);
+    g_test_add_func("/studio/document/on a full disk the file stays and it is told",
+                    test_full_disk);
     g_test_add_func("/studio/document/it knows whether it is saved", test_saved);
     g_test_add_func("/studio/document/watchers hear of each change once", test_watchers);
     g_test_add_func("/studio/document/killed while saving 100 times the file is whole",

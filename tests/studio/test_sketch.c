@@ -453,9 +453,23 @@ static void test_states(void) {
     fr_plant_free(plant);
 }
 
+static void test_pen(void) {
+    StudioBoard board = {.size = 1, .height = 0.25, .reach = 2};
+    static const double leans[][2] = {{-1, 2}, {-0.5, 1}, {0, 0}, {0.25, -0.5}, {1, -2}, {7, -2}};
+    for (size_t i = 0; i < G_N_ELEMENTS(leans); i++) {
+        g_assert_cmpfloat(studio_board_lean(&board, leans[i][0]), ==, leans[i][1]);
+    }
+    g_assert_cmpfloat(studio_board_lean(&board, NAN), ==, 0.25);
+    static const double presses[][2] = {{0, 0}, {0.4, 0.4}, {1, 1}, {-3, 0}, {1.5, 1}, {NAN, 1}};
+    for (size_t i = 0; i < G_N_ELEMENTS(presses); i++) {
+        g_assert_cmpfloat(studio_pen_pressure(presses[i][0]), ==, presses[i][1]);
+    }
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
 #define TEST(name, function) g_test_add_func("/studio/sketch/" name, function)
+    TEST("a pen that leans moves the board, and one that tells nothing is a mouse", test_pen);
     TEST("the farther a line is the thinner it is", test_thickness);
     TEST("nothing before the board is seen", test_window);
     TEST("a point on the board is seen where it was drawn", test_place);

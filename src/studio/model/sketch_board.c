@@ -44,6 +44,14 @@ void studio_board_raise(StudioBoard *board, double by) {
     board->height = fmin(fmax(board->height + by, -board->reach), board->reach);
 }
 
+double studio_board_lean(const StudioBoard *board, double tilt) {
+    return isnan(tilt) ? board->height : -CLAMP(tilt, -1, 1) * board->reach;
+}
+
+double studio_pen_pressure(double told) {
+    return isnan(told) ? 1 : CLAMP(told, 0, 1);
+}
+
 void studio_board_axes(const StudioBoard *board, double right[3], double up[3], double out[3]) {
     double c = cos(board->azimuth), s = sin(board->azimuth);
     right[0] = c, right[1] = s, right[2] = 0;

@@ -24,6 +24,12 @@ typedef struct StudioBoard {
 void studio_board_frame(StudioBoard *board, const StudioLine *lines, size_t count, double aspect);
 /// Moves the plane, as far as the board reaches.
 void studio_board_raise(StudioBoard *board, double by);
+/// The height to which a pen moves the plane: leaning towards who draws (−1, as tablets tell it) as
+/// near as the board reaches, upright 0, leaning away (1) as far. NAN: it tells none, and the plane
+/// stays.
+double studio_board_lean(const StudioBoard *board, double tilt);
+/// How hard a pen is pressed, 0 to 1; NAN: it tells none, and is pressed as a mouse is.
+double studio_pen_pressure(double told);
 /// Unit vectors to the right, upwards on the board, and towards who draws.
 void studio_board_axes(const StudioBoard *board, double right[3], double up[3], double out[3]);
 /// A place on the board (metres from its middle) at a height, in the plant's coordinates.
