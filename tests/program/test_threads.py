@@ -5,8 +5,10 @@ import sys
 
 import frond_tap as tap
 
-# Sanitizers make it some ten times slower, and look for other faults than differing bits.
-THREADS = (1, 3) if os.environ.get("FROND_SANITIZED") else (1, 2, 3, 8)
+# Sanitizers make it some ten times slower, and look for other faults than differing bits: the
+# models, which are grown as for their digests, are enough.
+IS_SANITIZED = bool(os.environ.get("FROND_SANITIZED"))
+THREADS = (1, 3) if IS_SANITIZED else (1, 2, 3, 8)
 
 
 def same(results):
@@ -56,7 +58,7 @@ def seeds_differ(example):
 
 
 TESTS = [(f"/program/threads/{example.stem} has one digest", equal_digests(example))
-         for example in tap.EXAMPLES]
+         for example in tap.EXAMPLES if not IS_SANITIZED or example.stem == "figure2"]
 TESTS += [(f"/program/threads/the model of {example.stem} has the same bytes", equal_models(example))
           for example in tap.EXAMPLES]
 TESTS += [(f"/program/threads/the picture of {example.stem} has the same bytes", equal_pictures(example))

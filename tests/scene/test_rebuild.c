@@ -91,6 +91,12 @@ static FrPgraphBuild *rebuild(const FrPgraph *graph, const FrPgraphBuild *last, 
     return build;
 }
 
+// Under sanitizers, which look for other faults than differing bits, every fourth parameter; of
+// each document others.
+static bool is_tried(const char *path, uint32_t component, size_t row) {
+    return g_getenv("FROND_SANITIZED") == NULL || (g_str_hash(path) + component + row) % 4 == 0;
+}
+
 static void change_each_parameter(const char *path) {
     Shipped shipped = shipped_load(path);
     if (shipped.plant == NULL) {
@@ -103,6 +109,9 @@ static void change_each_parameter(const char *path) {
     Shown shown = shown_new();
     for (uint32_t c = 0; c < fr_pgraph_count(graph); c++) {
         for (size_t row = 0; row < rows_of(graph, c); row++) {
+            if (!is_tried(path, c, row)) {
+                continue;
+            }
             void *before = aside(graph, c);
             nudge(graph, c, row);
             char *what = g_strdup_printf("%s, %s.%s", path, fr_pgraph_id(graph, c),
