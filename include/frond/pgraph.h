@@ -158,6 +158,8 @@ typedef struct FrPgraphCounts {
     uint32_t *component;    ///< i-tree: component of each; only on request
     uint64_t *place;        ///< i-tree: for fr_pgraph_path(); only on request
     uint8_t *edits;         ///< by edit, FrEditPlace; NULL without edits
+    double *seconds; ///< by component: what an instance takes one thread to make, by a sample; NAN:
+                     ///< none was made; only on request. Skins are made later
 } FrPgraphCounts;
 
 /// Frees the arrays.
@@ -165,7 +167,7 @@ FR_API void fr_pgraph_counts_clear(FrPgraphCounts *counts);
 
 /// Expands and builds. The number of instances, nodes and organs of each generation is counted
 /// and checked before it is made. `counts` may be NULL; set counts->parent to a non-NULL value to
-/// ask for the i-tree (it is replaced by an array).
+/// ask for the i-tree (it is replaced by an array), and so counts->seconds for times.
 /// `graft` (may be NULL) grows what its grafts ask for.
 FR_API FR_MUST_USE FrStatus fr_pgraph_build_grafted(const FrPgraph *graph, const FrGraft *graft,
                                                     const FrContext *context, FrPlant **plant,
@@ -190,7 +192,8 @@ FR_API FR_MUST_USE FrStatus fr_pgraph_rebuild(const FrPgraph *graph, const FrPgr
 FR_API void fr_pgraph_build_free(FrPgraphBuild *build);
 /// The plant, borrowed from the build.
 FR_API const FrPlant *fr_pgraph_build_plant(const FrPgraphBuild *build);
-/// Its counts, borrowed; without the i-tree.
+/// Its counts, borrowed; without the i-tree. Their seconds are of the last build that made
+/// instances of the component.
 FR_API const FrPgraphCounts *fr_pgraph_build_counts(const FrPgraphBuild *build);
 /// How many instances were not made but taken over.
 FR_API uint64_t fr_pgraph_build_taken_over(const FrPgraphBuild *build);

@@ -17,6 +17,7 @@ typedef struct FrScenePlant {
     bool has_nurbs;         ///< it is shown as rational surfaces …
     FrNurbsParams nurbs;    ///< … with these settings, at the time of its clock
     FrSpan nurbs_span;      ///< where they are written
+    double *seconds;        ///< by component, as FrPgraphCounts has them; NULL: not of a rebuild
 } FrScenePlant;
 
 typedef struct FrStand {

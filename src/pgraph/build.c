@@ -7,6 +7,7 @@
 #include "pgraph/kept.h"
 #include "pgraph/pipes.h"
 #include "pgraph/ramp.h"
+#include "pgraph/timing.h"
 
 #include <string.h>
 
@@ -79,7 +80,14 @@ static FrStatus prepare_and_expand(FrBuild *build, const FrRecursions *recursion
     FrEdits *edits = fr_edits_new(expansion->graph);
     expansion->edits = edits;
     build->has_place = g_new0(uint8_t, MAX(fr_pgraph_edit_count(expansion->graph), 1));
+    bool is_timed = build->counts != NULL && build->counts->seconds != NULL;
+    if (is_timed) {
+        fr_timing_begin(expansion, workers);
+    }
     status = status == FR_OK ? expand_or_share(build) : status;
+    if (is_timed) {
+        fr_timing_end(expansion, workers, build->counts->seconds);
+    }
     if (status == FR_OK) {
         fr_ramps_drop_unused(expansion->plant, expansion->ramps);
     }

@@ -11,6 +11,7 @@
 #include "pgraph/edit.h"
 #include "pgraph/global.h"
 #include "pgraph/kept.h"
+#include "pgraph/timing.h"
 
 enum { GRAIN = 256 };
 
@@ -19,30 +20,39 @@ enum { GRAIN = 256 };
 static void measure_range(void *data, size_t begin, size_t end, int worker) {
     const FrExpansion *expansion = data;
     FrEvaluator evaluator = {.faults = expansion->faults[worker]};
+    FrLap lap = fr_lap_begin(expansion, begin, GRAIN, worker);
     for (uint32_t row = (uint32_t)begin; row < end; row++) {
+        fr_lap_row(&lap, expansion, row);
         if (expansion->level.twin[row] != FR_NONE) {
             fr_twin_measure(expansion, row);
         } else {
             fr_instance_measure(expansion, row, &evaluator);
         }
+        fr_lap_count(&lap, expansion, row);
     }
+    fr_lap_end(&lap);
 }
 
 static void count_range(void *data, size_t begin, size_t end, int worker) {
     const FrExpansion *expansion = data;
     FrEvaluator evaluator = {.faults = expansion->faults[worker]};
+    FrLap lap = fr_lap_begin(expansion, begin, GRAIN, worker);
     for (uint32_t row = (uint32_t)begin; row < end; row++) {
+        fr_lap_row(&lap, expansion, row);
         expansion->level.child_count[row] = expansion->level.twin[row] != FR_NONE
                                                 ? fr_twin_children(expansion, row)
                                                 : fr_instance_children(expansion, row, &evaluator);
     }
+    fr_lap_end(&lap);
 }
 
 static void make_range(void *data, size_t begin, size_t end, int worker) {
     const FrExpansion *expansion = data;
     FrEvaluator evaluator = {.faults = expansion->faults[worker]};
     FrEvaluator place = {.faults = expansion->faults[worker]};
+    FrLap lap = fr_lap_begin(expansion, begin, GRAIN, worker);
     for (uint32_t row = (uint32_t)begin, run; row < end; row += MAX(run, 1)) {
+        fr_lap_row(&lap, expansion, row);
         run = fr_twin_run(expansion, row, (uint32_t)end);
         if (run > 0) {
             fr_twin_copy(expansion, row, run, &evaluator);
@@ -53,6 +63,7 @@ static void make_range(void *data, size_t begin, size_t end, int worker) {
             fr_twin_pass_on(expansion, row);
         }
     }
+    fr_lap_end(&lap);
 }
 
 static void for_level(FrBuild *build, FrRangeFn body) {

@@ -24,8 +24,10 @@ typedef struct FrExpansion {
     const FrLightField *light;         ///< that Worlds sample; NULL
     const struct FrGrafting *grafting; ///< what stands at this level's grafts
     const struct FrEdits *edits;       ///< by hand; NULL: none
-    uint64_t *places; ///< of the next level, for fr_pgraph_path(); NULL: not asked for
-    uint32_t *ramps;  ///< of each material, see fr_ramps_add(); NULL: none has one
+    uint64_t *places;       ///< of the next level, for fr_pgraph_path(); NULL: not asked for
+    uint32_t *ramps;        ///< of each material, see fr_ramps_add(); NULL: none has one
+    struct FrTimer *timers; ///< of each worker, see timing.h; NULL: nothing is timed
+    double tick;            ///< s that reading the clock takes
 } FrExpansion;
 
 /// Where and how large an instance is, its own transformation applied.

@@ -2,6 +2,7 @@
 
 #include "pgraph/depend.h"
 
+#include <math.h>
 #include <string.h>
 
 // ---- which stages are as they were -------------------------------------------------------------
@@ -206,12 +207,27 @@ void fr_pgraph_build_free(FrPgraphBuild *build) {
     g_free(build);
 }
 
+double fr_kept_seconds(const FrPgraphBuild *last, const FrPgraph *graph, uint32_t component) {
+    const char *id = fr_pgraph_id(graph, component);
+    if (last != NULL && last->counts.seconds != NULL) {
+        const GArray *components = last->plant->components;
+        for (guint k = 0; k < components->len; k++) { // mostly it is where it was
+            guint at = (component + k) % components->len;
+            if (strcmp(g_array_index(components, FrComponent, at).id, id) == 0) {
+                return last->counts.seconds[at];
+            }
+        }
+    }
+    return NAN;
+}
+
 void fr_pgraph_counts_clear(FrPgraphCounts *counts) {
     g_free(counts->by_component);
     g_free(counts->parent);
     g_free(counts->component);
     g_free(counts->place);
     g_free(counts->edits);
+    g_free(counts->seconds);
     *counts = (FrPgraphCounts){0};
 }
 

@@ -50,6 +50,8 @@ typedef struct FrTwins {
 void fr_kept_begin(FrPgraphBuild *made, const FrBuild *build, const FrPgraphBuild *last,
                    FrTwins *twins);
 void fr_twins_clear(FrTwins *twins);
+/// What an instance of a component of `graph` took to make when the last build was made; NAN.
+double fr_kept_seconds(const FrPgraphBuild *last, const FrPgraph *graph, uint32_t component);
 /// Gives `made` the rows of the last build instead of its own.
 void fr_kept_share_rows(FrPgraphBuild *made, const FrPgraphBuild *last);
 /// Takes the columns of made->plant into rows of its own, with the levels.

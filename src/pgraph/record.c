@@ -12,7 +12,14 @@ void fr_build_begin_counts(FrBuild *build) {
         return;
     }
     bool wants_tree = counts->parent != NULL;
+    bool wants_times = counts->seconds != NULL || build->made != NULL;
     *counts = (FrPgraphCounts){.by_component = g_new0(uint64_t, MAX(components, 1))};
+    if (wants_times) {
+        counts->seconds = g_new(double, MAX(components, 1));
+        for (uint32_t c = 0; c < components; c++) {
+            counts->seconds[c] = fr_kept_seconds(build->last, build->expansion.graph, c);
+        }
+    }
     if (wants_tree) {
         counts->parent = g_new(uint32_t, 1);
         counts->component = g_new(uint32_t, 1);

@@ -31,6 +31,7 @@ static void clear_plant(void *data) {
     FrScenePlant *plant = data;
     fr_plant_free(plant->plant);
     g_free(plant->by_component);
+    g_free(plant->seconds);
 }
 
 static char *scene_name(const char *document) {
@@ -131,6 +132,7 @@ static FrStatus rebuild_plant(Build *build, const FrPlantDef *definition, int64_
         guint components = plant->components->len;
         *made = (FrScenePlant){plant, counts->instances, g_new0(uint64_t, components + 1), 0};
         memcpy(made->by_component, counts->by_component, components * sizeof(uint64_t));
+        made->seconds = g_memdup2(counts->seconds, components * sizeof(double));
         g_array_index(parts->parts, FrScenePart, parts->parts->len - 1).build = kept;
     }
     return status;

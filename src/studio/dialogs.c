@@ -39,20 +39,21 @@ static GtkWidget *display_row(const char *title, const char *subtitle, const cha
 }
 
 static void on_budget(GtkSpinButton *button, StudioWindow *window) {
-    int budget = gtk_spin_button_get_value_as_int(button);
-    studio_settings_set_int(window->settings, "budget", budget);
-    studio_graph_panel_set_budget(window->graph, (uint64_t)budget);
+    const char *name = gtk_widget_get_name(GTK_WIDGET(button)); // that of the setting
+    studio_settings_set_int(window->settings, name, gtk_spin_button_get_value_as_int(button));
+    studio_graph_panel_set_budget(window->graph, studio_window_budget(window));
 }
 
-static GtkWidget *budget_row(StudioWindow *window) {
-    GtkWidget *row = adw_action_row_new(), *button = gtk_spin_button_new_with_range(0, 1e9, 50000);
-    adw_preferences_row_set_title(ADW_PREFERENCES_ROW(row), "Budget");
-    adw_action_row_set_subtitle(ADW_ACTION_ROW(row),
-                                "Components with more instances are amber; 0: none is");
+static GtkWidget *budget_row(StudioWindow *window, const char *setting, const char *title,
+                             const char *subtitle, int usual, double step) {
+    GtkWidget *row = adw_action_row_new(), *button = gtk_spin_button_new_with_range(0, 1e9, step);
+    adw_preferences_row_set_title(ADW_PREFERENCES_ROW(row), title);
+    adw_action_row_set_subtitle(ADW_ACTION_ROW(row), subtitle);
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(button),
-                              studio_settings_int(window->settings, "budget", STUDIO_USUAL_BUDGET));
+                              studio_settings_int(window->settings, setting, usual));
     gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
-    studio_name(button, "Budget");
+    gtk_widget_set_name(button, setting);
+    studio_name(button, title);
     adw_action_row_add_suffix(ADW_ACTION_ROW(row), button);
     adw_action_row_set_activatable_widget(ADW_ACTION_ROW(row), button);
     g_signal_connect(button, "value-changed", G_CALLBACK(on_budget), window);
@@ -76,7 +77,14 @@ void studio_window_show_preferences(StudioWindow *window) {
     gtk_widget_set_visible(picture, window->document != NULL);
     GtkWidget *graph = adw_preferences_group_new();
     adw_preferences_group_set_title(ADW_PREFERENCES_GROUP(graph), "Graph");
-    adw_preferences_group_add(ADW_PREFERENCES_GROUP(graph), budget_row(window));
+    adw_preferences_group_add(ADW_PREFERENCES_GROUP(graph),
+                              budget_row(window, "budget", "Budget",
+                                         "Components with more instances are amber; 0: none is",
+                                         STUDIO_USUAL_BUDGET, 50000));
+    adw_preferences_group_add(ADW_PREFERENCES_GROUP(graph),
+                              budget_row(window, "budget-time", "Time budget",
+                                         "So are those that take more milliseconds; 0: none is",
+                                         STUDIO_USUAL_MILLISECONDS, 10));
     if (window->document != NULL) {
         gtk_widget_insert_action_group(dialog, "win", G_ACTION_GROUP(window));
         adw_preferences_group_add(

@@ -7,6 +7,8 @@
 
 enum { ICON = 20 };
 
+typedef enum TextStyle { TEXT_PLAIN, TEXT_BOLD, TEXT_RIGHT } TextStyle;
+
 static void rounded(cairo_t *cairo, double x, double y, double width, double height, double r) {
     cairo_new_sub_path(cairo);
     cairo_arc(cairo, x + width - r, y + r, r, -G_PI / 2, 0);
@@ -17,18 +19,20 @@ static void rounded(cairo_t *cairo, double x, double y, double width, double hei
 }
 
 static void text_at(StudioGraphPanel *panel, cairo_t *cairo, const char *text, double x, double y,
-                    double width, double size, bool is_bold) {
+                    double width, double size, TextStyle style) {
     PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(panel), text);
     PangoFontDescription *font = pango_font_description_copy(
         pango_context_get_font_description(gtk_widget_get_pango_context(GTK_WIDGET(panel))));
     pango_font_description_set_absolute_size(font, size * PANGO_SCALE);
-    if (is_bold) {
+    if (style == TEXT_BOLD) {
         pango_font_description_set_weight(font, PANGO_WEIGHT_BOLD);
     }
     pango_layout_set_font_description(layout, font);
     if (width > 0) {
         pango_layout_set_width(layout, (int)(width * PANGO_SCALE));
         pango_layout_set_ellipsize(layout, PANGO_ELLIPSIZE_END);
+        pango_layout_set_alignment(layout,
+                                   style == TEXT_RIGHT ? PANGO_ALIGN_RIGHT : PANGO_ALIGN_LEFT);
     }
     cairo_move_to(cairo, x, y);
     pango_cairo_show_layout(cairo, layout);
@@ -78,36 +82,57 @@ static void draw_second(cairo_t *cairo, const graphene_rect_t *rect, const doubl
 
 static const double amber[3] = {0.93, 0.71, 0.08};
 
-// What stands below a box's name: how many there are, in amber with a mark if that is many.
+static StudioLoad weight_of(StudioGraphPanel *panel, const StudioBox *box) {
+    const Load *load = studio_graph_load(panel, box);
+    return load == NULL ? STUDIO_LOAD_FINE
+                        : studio_load_of(load->instances, load->seconds, &panel->budget);
+}
+
+// What stands below a box's name: how many there are, and how long they take if that can be felt.
+// In amber if either is much.
 static void draw_count(StudioGraphPanel *panel, cairo_t *cairo, const StudioBox *box,
                        const graphene_rect_t *rect, const GdkRGBA *ink) {
     double scale = studio_graph_scale(panel), strength = box->is_enabled ? 0.6 : 0.24;
-    uint64_t *count = panel->counts == NULL ? NULL : g_hash_table_lookup(panel->counts, box->id);
+    double x = rect->origin.x + 30 * scale, y = rect->origin.y + 18 * scale;
+    double width = rect->size.width - 34 * scale;
+    const Load *load = studio_graph_load(panel, box);
+    bool is_counted = box->is_enabled && load != NULL;
+    char *shown = !box->is_enabled ? g_strdup("off")
+                  : load == NULL   ? g_strdup(fr_pgraph_table(box->kind)->element)
+                                   : short_count(load->instances);
+    char *time = is_counted ? studio_time_text(load->seconds) : g_strdup("");
     cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, strength);
-    char *number = count == NULL ? NULL : short_count(*count), *shown;
-    if (!box->is_enabled) {
-        shown = g_strdup("off");
-    } else if (count == NULL) {
-        shown = g_strdup(fr_pgraph_table(box->kind)->element);
-    } else if (studio_load_of(*count, panel->budget) == STUDIO_LOAD_HEAVY) {
+    if (is_counted && weight_of(panel, box) == STUDIO_LOAD_HEAVY) {
         cairo_set_source_rgb(cairo, amber[0], amber[1], amber[2]);
-        shown = g_strdup_printf("\u25b2 %s", number);
-    } else {
-        shown = g_strdup(number);
     }
-    text_at(panel, cairo, shown, rect->origin.x + 30 * scale, rect->origin.y + 18 * scale,
-            rect->size.width - 34 * scale, 11 * scale, false);
+    text_at(panel, cairo, shown, x, y, width, 11 * scale, TEXT_PLAIN);
+    text_at(panel, cairo, time, x, y, width, 11 * scale, TEXT_RIGHT);
+    g_free(time);
     g_free(shown);
-    g_free(number);
+}
+
+// A box's name, and the mark of one that is heavy.
+static void draw_name(StudioGraphPanel *panel, cairo_t *cairo, const StudioBox *box,
+                      const graphene_rect_t *rect, const GdkRGBA *ink) {
+    double scale = studio_graph_scale(panel), strength = box->is_enabled ? 1 : 0.4;
+    double x = rect->origin.x + 30 * scale, y = rect->origin.y + 3 * scale;
+    bool is_heavy = weight_of(panel, box) == STUDIO_LOAD_HEAVY;
+    double width = rect->size.width - (is_heavy ? 46 : 34) * scale;
+    cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, strength);
+    text_at(panel, cairo, box->id, x, y, width, 12.5 * scale, TEXT_BOLD);
+    if (is_heavy) {
+        cairo_set_source_rgb(cairo, amber[0], amber[1], amber[2]);
+        text_at(panel, cairo, "\u25b2", x, y, rect->size.width - 34 * scale, 11 * scale,
+                TEXT_RIGHT);
+    }
 }
 
 static void draw_box(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index, const GdkRGBA *ink) {
     const StudioBox *box = studio_graph_box(panel->graph, index);
     graphene_rect_t rect = studio_graph_box_rect(panel, index);
     double x = rect.origin.x, y = rect.origin.y, scale = studio_graph_scale(panel);
-    uint64_t *count = panel->counts == NULL ? NULL : g_hash_table_lookup(panel->counts, box->id);
     bool is_chosen = box->element == panel->selected;
-    StudioLoad load = count == NULL ? STUDIO_LOAD_FINE : studio_load_of(*count, panel->budget);
+    StudioLoad load = weight_of(panel, box);
     double colour[3], strength = box->is_enabled ? 1 : 0.4;
     studio_component_colour(box->kind, colour);
     if (box->is_recursive) { // drawn double: it follows upon itself
@@ -138,9 +163,7 @@ static void draw_box(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index, co
     cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], strength);
     studio_component_icon(cairo, box->kind, 18 * scale);
     cairo_restore(cairo);
-    cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, strength);
-    text_at(panel, cairo, box->id, x + 30 * scale, y + 3 * scale, rect.size.width - 34 * scale,
-            12.5 * scale, true);
+    draw_name(panel, cairo, box, &rect, ink);
     draw_count(panel, cairo, box, &rect, ink);
 }
 
@@ -191,7 +214,7 @@ static void draw_tools(StudioGraphPanel *panel, cairo_t *cairo, const GdkRGBA *i
         panel->drag == DRAG_NOTHING ? studio_graph_tool_under(panel, panel->x, panel->y) : FR_NONE;
     text_at(panel, cairo, kind != FR_NONE ? studio_graph_tool_name(kind) : tip, TOOL_PAD + 2,
             top + 7, gtk_widget_get_width(GTK_WIDGET(panel)) - 2 * TOOL_PAD,
-            11.5 * studio_letter_scale(GTK_WIDGET(panel)), false);
+            11.5 * studio_letter_scale(GTK_WIDGET(panel)), TEXT_PLAIN);
     for (guint i = 1; i < TOOL_END; i++) {
         graphene_rect_t rect = studio_graph_tool_rect(panel, i);
         if (i == kind) {
@@ -221,7 +244,7 @@ static void draw_drag(StudioGraphPanel *panel, cairo_t *cairo) {
         cairo_set_source_rgba(cairo, is_refused ? 0.75 : 0.1, 0.12, 0.12, 0.92);
         cairo_fill(cairo);
         cairo_set_source_rgb(cairo, 1, 1, 1);
-        text_at(panel, cairo, words, x + 8, panel->y + 25, width - 12, 12 * letter, false);
+        text_at(panel, cairo, words, x + 8, panel->y + 25, width - 12, 12 * letter, TEXT_PLAIN);
     }
     g_free(words);
 }
@@ -243,7 +266,7 @@ void studio_graph_draw(StudioGraphPanel *panel, GtkSnapshot *snapshot) {
     if (panel->graph->boxes->len == 0) {
         cairo_set_source_rgba(cairo, ink.red, ink.green, ink.blue, 0.6);
         text_at(panel, cairo, "No components: see Contents and Text", PAD, 2 * PAD, width - 2 * PAD,
-                13 * studio_letter_scale(widget), false);
+                13 * studio_letter_scale(widget), TEXT_PLAIN);
     } else {
         draw_tools(panel, cairo, &ink);
     }

@@ -2,6 +2,7 @@
 
 #include "studio/accessible.h"
 #include "studio/model/builder.h"
+#include "studio/model/values.h"
 
 #include <math.h>
 #include <string.h>
@@ -167,15 +168,16 @@ void studio_graph_panel_set_counts(StudioGraphPanel *panel, const GArray *counts
     for (guint i = 0; i < counts->len; i++) {
         const StudioCount *count = &g_array_index(counts, StudioCount, i);
         if (g_strcmp0(count->plant, plant) == 0) {
+            Load load = {count->instances, count->seconds};
             g_hash_table_insert(panel->counts, g_strdup(count->component),
-                                g_memdup2(&count->instances, sizeof count->instances));
+                                g_memdup2(&load, sizeof load));
         }
     }
     studio_graph_say(panel);
     gtk_widget_queue_draw(GTK_WIDGET(panel));
 }
 
-void studio_graph_panel_set_budget(StudioGraphPanel *panel, uint64_t budget) {
+void studio_graph_panel_set_budget(StudioGraphPanel *panel, StudioBudget budget) {
     panel->budget = budget;
     gtk_widget_queue_draw(GTK_WIDGET(panel));
 }
@@ -193,6 +195,30 @@ gboolean studio_graph_panel_where(StudioGraphPanel *panel, const char *name, gra
         }
     }
     return FALSE;
+}
+
+// The whole of what a box has no room for.
+static gboolean on_tip(GtkWidget *widget, int x, int y, gboolean is_keyboard, GtkTooltip *tip,
+                       gpointer data) {
+    (void)is_keyboard;
+    (void)data;
+    StudioGraphPanel *panel = STUDIO_GRAPH_PANEL(widget);
+    uint32_t index = studio_graph_box_under(panel, x, y);
+    const StudioBox *box = index == FR_NONE ? NULL : studio_graph_box(panel->graph, index);
+    const Load *load = box == NULL ? NULL : studio_graph_load(panel, box);
+    if (load == NULL || panel->drag != DRAG_NOTHING) {
+        return FALSE;
+    }
+    char *count = studio_count_words(load->instances, "instance", "instances");
+    char *time = isnan(load->seconds)
+                     ? g_strdup("")
+                     : g_strdup_printf(", %.3g ms to make on one thread", 1000 * load->seconds);
+    char *text = g_strdup_printf("%s: %s%s", box->id, count, time);
+    gtk_tooltip_set_text(tip, text);
+    g_free(text);
+    g_free(time);
+    g_free(count);
+    return TRUE;
 }
 
 // ---- life --------------------------------------------------------------------------------------
@@ -260,6 +286,8 @@ static void studio_graph_panel_init(StudioGraphPanel *panel) {
     gtk_widget_set_parent(panel->menu, widget);
     g_object_unref(menu);
     gtk_widget_set_focusable(widget, TRUE);
+    gtk_widget_set_has_tooltip(widget, TRUE);
+    g_signal_connect(widget, "query-tooltip", G_CALLBACK(on_tip), NULL);
     gtk_widget_set_hexpand(widget, TRUE);
     gtk_widget_set_vexpand(widget, TRUE);
     studio_name(GTK_WIDGET(panel), "Graph of components");

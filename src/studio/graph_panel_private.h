@@ -8,7 +8,7 @@
 #include "studio/model/graph.h"
 
 enum {
-    BOX_WIDTH = 92,
+    BOX_WIDTH = 104,
     BOX_HEIGHT = 36,
     GAP_X = 14,
     GAP_Y = 34,
@@ -21,6 +21,12 @@ enum {
     TOOL_END,
 };
 
+/// What a component has, and how many seconds that takes.
+typedef struct Load {
+    uint64_t instances;
+    double seconds;
+} Load;
+
 typedef enum DragKind { DRAG_NOTHING, DRAG_TOOL, DRAG_BOX, DRAG_CANVAS } DragKind;
 
 struct _StudioGraphPanel {
@@ -29,8 +35,8 @@ struct _StudioGraphPanel {
     uint32_t plant;
     uint32_t selected; // element
     StudioGraph *graph;
-    GHashTable *counts;      // id → instances; NULL: not known
-    uint64_t budget;         // as in studio_load_of()
+    GHashTable *counts;      // id → Load; NULL: not known
+    StudioBudget budget;     // as in studio_load_of()
     double shift_x, shift_y; // of the graph within the panel
     DragKind drag;
     uint32_t held;   // tool or box
@@ -62,6 +68,9 @@ uint32_t studio_graph_tool_under(StudioGraphPanel *panel, double x, double y);
 uint32_t studio_graph_wire_under(StudioGraphPanel *panel, double x, double y);
 /// What would come of a drop here, in words; NULL: nothing. Free with g_free().
 char *studio_graph_words_of_drop(StudioGraphPanel *panel, bool *is_refused);
+
+/// What is known of a box; NULL: nothing.
+const Load *studio_graph_load(StudioGraphPanel *panel, const StudioBox *box);
 
 // graph_draw.c
 

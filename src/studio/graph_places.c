@@ -42,7 +42,7 @@ double studio_graph_scale(StudioGraphPanel *panel) {
     double fit =
         fmin(width_of(panel) / fmax(wanted, 1), studio_graph_tools_top(panel) / fmax(high, 1));
     double most = studio_letter_scale(GTK_WIDGET(panel));
-    return CLAMP(fit, 0.62 * most, most);
+    return CLAMP(fit, 0.6 * most, most);
 }
 
 graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t index) {
@@ -95,6 +95,10 @@ uint32_t studio_graph_tool_under(StudioGraphPanel *panel, double x, double y) {
         }
     }
     return FR_NONE;
+}
+
+const Load *studio_graph_load(StudioGraphPanel *panel, const StudioBox *box) {
+    return panel->counts == NULL ? NULL : g_hash_table_lookup(panel->counts, box->id);
 }
 
 // The ends of a wire, and its two bends.

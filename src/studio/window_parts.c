@@ -49,6 +49,13 @@ static void on_show_problem(GtkButton *button, StudioWindow *window) {
     studio_window_show_problem(window);
 }
 
+StudioBudget studio_window_budget(StudioWindow *window) {
+    int instances = studio_settings_int(window->settings, "budget", STUDIO_USUAL_BUDGET);
+    int milliseconds =
+        studio_settings_int(window->settings, "budget-time", STUDIO_USUAL_MILLISECONDS);
+    return (StudioBudget){(uint64_t)MAX(instances, 0), MAX(milliseconds, 0) / 1000.0};
+}
+
 // ---- parts -------------------------------------------------------------------------------------
 
 // One that fades keeps its room while it is hidden.
@@ -172,9 +179,7 @@ static GtkWidget *make_lsystem(StudioWindow *window) {
 static GtkWidget *make_side(StudioWindow *window) {
     window->side = gtk_stack_new();
     window->graph = STUDIO_GRAPH_PANEL(studio_graph_panel_new());
-    studio_graph_panel_set_budget(
-        window->graph,
-        (uint64_t)MAX(studio_settings_int(window->settings, "budget", STUDIO_USUAL_BUDGET), 0));
+    studio_graph_panel_set_budget(window->graph, studio_window_budget(window));
     window->things = STUDIO_THINGS_PANEL(studio_things_panel_new());
     window->lsystem = STUDIO_TEXT_PANEL(studio_text_panel_new("frond-lsystem"));
     window->text = STUDIO_TEXT_PANEL(studio_text_panel_new("xml"));

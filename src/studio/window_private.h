@@ -115,6 +115,8 @@ void studio_window_update_problem(StudioWindow *window);
 
 /// Shows or hides a bar over the picture; one that is hidden lets clicks through.
 void studio_window_reveal(GtkWidget *revealer, bool is_shown);
+/// What a component may have and take, by the preferences.
+StudioBudget studio_window_budget(StudioWindow *window);
 GtkWidget *studio_window_make_header(StudioWindow *window);
 GtkWidget *studio_window_make_panes(StudioWindow *window);
 

@@ -41,14 +41,18 @@ static const StudioBuilt *await(Fixture *fixture) {
     g_assert_not_reached();
 }
 
-static uint64_t count_of(const StudioBuilt *built, const char *component) {
+static StudioCount counted(const StudioBuilt *built, const char *component) {
     for (guint i = 0; i < built->counts->len; i++) {
         const StudioCount *count = &g_array_index(built->counts, StudioCount, i);
         if (strcmp(count->component, component) == 0) {
-            return count->instances;
+            return *count;
         }
     }
-    return 0;
+    return (StudioCount){0};
+}
+
+static uint64_t count_of(const StudioBuilt *built, const char *component) {
+    return counted(built, component).instances;
 }
 
 static void test_builds(Fixture *fixture, gconstpointer data) {
@@ -60,6 +64,8 @@ static void test_builds(Fixture *fixture, gconstpointer data) {
     g_assert_cmpuint(built->revision, ==, studio_document_revision(document));
     g_assert_cmpuint(built->view->plants->len, ==, 1);
     g_assert_cmpuint(count_of(built, "D"), ==, 9);
+    g_assert_cmpfloat(counted(built, "D").seconds, >, 0);
+    g_assert_cmpfloat(counted(built, "D").seconds, <, 1);
     studio_builder_release(fixture->builder);
     g_assert_cmpint(g_atomic_int_get(&fixture->wakes), >=, 1);
     studio_document_free(document);

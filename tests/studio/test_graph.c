@@ -100,11 +100,29 @@ static void test_likely(void) {
 }
 
 static void test_load(void) {
-    g_assert_cmpint(studio_load_of(0, 0), ==, STUDIO_LOAD_NOTHING);
-    g_assert_cmpint(studio_load_of(0, 10), ==, STUDIO_LOAD_NOTHING);
-    g_assert_cmpint(studio_load_of(10, 10), ==, STUDIO_LOAD_FINE);
-    g_assert_cmpint(studio_load_of(11, 10), ==, STUDIO_LOAD_HEAVY);
-    g_assert_cmpint(studio_load_of(UINT64_MAX, 0), ==, STUDIO_LOAD_FINE);
+    static const StudioBudget none = {0, 0}, ten = {10, 0}, quick = {0, 0.1};
+    g_assert_cmpint(studio_load_of(0, NAN, &none), ==, STUDIO_LOAD_NOTHING);
+    g_assert_cmpint(studio_load_of(0, 9, &ten), ==, STUDIO_LOAD_NOTHING);
+    g_assert_cmpint(studio_load_of(10, 9, &ten), ==, STUDIO_LOAD_FINE);
+    g_assert_cmpint(studio_load_of(11, NAN, &ten), ==, STUDIO_LOAD_HEAVY);
+    g_assert_cmpint(studio_load_of(UINT64_MAX, 9, &none), ==, STUDIO_LOAD_FINE);
+    g_assert_cmpint(studio_load_of(11, 0.1, &quick), ==, STUDIO_LOAD_FINE);
+    g_assert_cmpint(studio_load_of(1, 0.11, &quick), ==, STUDIO_LOAD_HEAVY);
+    g_assert_cmpint(studio_load_of(1, NAN, &quick), ==, STUDIO_LOAD_FINE);
+}
+
+static void test_time(void) {
+    static const struct {
+        double seconds;
+        const char *text;
+    } rows[] = {
+        {NAN, ""},          {0, ""},           {0.00099, ""},   {0.001, "1 ms"}, {0.0384, "38 ms"},
+        {0.9994, "999 ms"}, {0.9996, "1.0 s"}, {1.24, "1.2 s"}, {9.94, "9.9 s"}, {12.4, "12 s"}};
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        char *text = studio_time_text(rows[i].seconds);
+        g_assert_cmpstr(text, ==, rows[i].text);
+        g_free(text);
+    }
 }
 
 int main(int argc, char **argv) {
@@ -116,5 +134,6 @@ int main(int argc, char **argv) {
     g_test_add_func(
         "/studio/graph/a component over the budget is heavy, one without instances empty",
         test_load);
+    g_test_add_func("/studio/graph/a time is told where it can be felt", test_time);
     return g_test_run();
 }

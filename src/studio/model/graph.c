@@ -3,10 +3,19 @@
 #include <math.h>
 #include <string.h>
 
-StudioLoad studio_load_of(uint64_t instances, uint64_t budget) {
-    return instances == 0                     ? STUDIO_LOAD_NOTHING
-           : budget > 0 && instances > budget ? STUDIO_LOAD_HEAVY
-                                              : STUDIO_LOAD_FINE;
+StudioLoad studio_load_of(uint64_t instances, double seconds, const StudioBudget *budget) {
+    bool is_many = budget->instances > 0 && instances > budget->instances;
+    bool is_slow = budget->seconds > 0 && seconds > budget->seconds; // no NAN is
+    return instances == 0       ? STUDIO_LOAD_NOTHING
+           : is_many || is_slow ? STUDIO_LOAD_HEAVY
+                                : STUDIO_LOAD_FINE;
+}
+
+char *studio_time_text(double seconds) {
+    return !(seconds >= 0.001) ? g_strdup("")
+           : seconds < 0.9995  ? g_strdup_printf("%.0f ms", seconds * 1000)
+           : seconds < 9.95    ? g_strdup_printf("%.1f s", seconds)
+                               : g_strdup_printf("%.0f s", seconds);
 }
 
 const StudioBox *studio_graph_box(const StudioGraph *graph, uint32_t box) {

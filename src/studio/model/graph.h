@@ -28,14 +28,22 @@ typedef struct StudioGraph {
     double columns, rows;
 } StudioGraph;
 
-/// What a component's number of instances says.
+/// What a component's number of instances, and their time, says.
 typedef enum StudioLoad { STUDIO_LOAD_NOTHING, STUDIO_LOAD_FINE, STUDIO_LOAD_HEAVY } StudioLoad;
 
-/// More instances of one component than this are worth a word, unless the user says otherwise.
-enum { STUDIO_USUAL_BUDGET = 250000 };
+/// What one component may have and take at most; 0: anything is fine.
+typedef struct StudioBudget {
+    uint64_t instances;
+    double seconds;
+} StudioBudget;
 
-/// `budget`: the most instances of one component that are fine; 0: any number is.
-StudioLoad studio_load_of(uint64_t instances, uint64_t budget);
+/// More than this is worth a word, unless the user says otherwise.
+enum { STUDIO_USUAL_BUDGET = 250000, STUDIO_USUAL_MILLISECONDS = 100 };
+
+/// `seconds` NAN: unknown.
+StudioLoad studio_load_of(uint64_t instances, double seconds, const StudioBudget *budget);
+/// "38 ms", "1.2 s", short enough for a box; "" below a millisecond or for NAN. Free with g_free().
+char *studio_time_text(double seconds);
 /// The graph of a plant; empty if it has none. Laid out as a tidy tree: parents above the middle of
 /// their children, in the order of the document, no two boxes in one place.
 StudioGraph *studio_graph_new(const FrContents *contents, uint32_t plant);
