@@ -72,6 +72,19 @@ static void add_handle(StudioWindow *window, GtkBox *box, size_t handle) {
     gtk_box_append(box, scale);
 }
 
+// The numbers may have been set by actions.
+static void on_show(GtkWidget *box, StudioWindow *window) {
+    for (GtkWidget *child = gtk_widget_get_first_child(box); child != NULL;
+         child = gtk_widget_get_next_sibling(child)) {
+        if (GTK_IS_SCALE(child)) {
+            size_t handle = GPOINTER_TO_SIZE(g_object_get_data(G_OBJECT(child), "studio-handle"));
+            g_signal_handlers_block_by_func(child, on_value, window);
+            gtk_range_set_value(GTK_RANGE(child), *number_of(window, handle));
+            g_signal_handlers_unblock_by_func(child, on_value, window);
+        }
+    }
+}
+
 GtkWidget *studio_wind_button_new(StudioWindow *window) {
     GtkWidget *linked = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
     gtk_widget_add_css_class(linked, "linked");
@@ -84,6 +97,7 @@ GtkWidget *studio_wind_button_new(StudioWindow *window) {
     for (size_t i = 0; i < G_N_ELEMENTS(handles); i++) {
         add_handle(window, GTK_BOX(box), i);
     }
+    g_signal_connect(box, "map", G_CALLBACK(on_show), window);
     GtkWidget *popover = gtk_popover_new();
     gtk_popover_set_child(GTK_POPOVER(popover), box);
     GtkWidget *menu = gtk_menu_button_new();

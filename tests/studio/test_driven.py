@@ -7,6 +7,7 @@ import re
 import shutil
 import sys
 import tempfile
+import time
 
 import studio_driver as driver
 

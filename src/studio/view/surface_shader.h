@@ -124,12 +124,12 @@ static const char studio_surface_vertex[] =
     "    float open = lit();\n" /* what hides the sun hides about half of the sky, too */          \
     "    vec3 direct = thrown(s, sun, sun_colour * open) + from_lamps(s);\n"                       \
     "    vec3 bounce = from_sky(reflect(-s.v, s.n));\n"                                            \
-    "    vec3 soft = mirror * base * bounce;\n"                                                    \
-    "    soft += s.out_coated * (s.coat > 0.0 ? 0.92 : 1.0) *\n" /* what a coat takes on the way   \
-                                                                  */                               \
+    "    vec3 soft = mirror * base * bounce;\n" /* 0.92: what a coat takes on the way in */        \
+    "    soft += s.out_coated * (s.coat > 0.0 ? 0.92 : 1.0) *\n"                                   \
     "            (s.matt * from_sky(s.n) + s.through * from_sky(-s.n));\n"                         \
-    "    if (s.coat > 0.0) soft += fresnel(s.coat, s.out_cosine) * (1.0 - 0.6 * s.width) * "       \
-    "bounce;\n"                                                                                    \
+    "    float shine = s.coat > 0.0 ? fresnel(s.coat, s.out_cosine) * (1.0 - 0.6 * s.width) : "    \
+    "0.0;\n"                                                                                       \
+    "    soft += shine * open * bounce;\n" /* what stands around is darker than the sky */         \
     "    return direct + soft * (0.5 + 0.5 * open);\n"                                             \
     "}\n"
 
