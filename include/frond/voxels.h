@@ -11,6 +11,8 @@
 #include "frond/context.h"
 #include "frond/vector.h"
 
+#include <pthread.h>
+
 enum {
     FR_VOXELS_WIDTH = 4096, ///< cells along each axis
     FR_BRICK_WIDTH = 8,
@@ -50,8 +52,8 @@ typedef struct FrVoxels {
     FrBrick **inside_block[2];
     GPtrArray *slabs; ///< private: memory of bricks and blocks
     size_t slab_used, slab_size;
-    GPtrArray *spare; ///< private: blocks that are not used any more
-    GMutex lock;      ///< private: of the slabs
+    GPtrArray *spare;     ///< private: blocks that are not used any more
+    pthread_mutex_t lock; ///< private: of the slabs
 } FrVoxels;
 
 FR_API FrVoxels *fr_voxels_new(const double origin[3], double cell);

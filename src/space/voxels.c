@@ -63,7 +63,7 @@ FrVoxels *fr_voxels_new(const double origin[3], double cell) {
     voxels->bytes = TOP * sizeof(FrBrick **);
     voxels->slabs = g_ptr_array_new_with_free_func(free_slab);
     voxels->spare = g_ptr_array_new();
-    g_mutex_init(&voxels->lock);
+    pthread_mutex_init(&voxels->lock, NULL);
     for (int is_ground = 0; is_ground < 2; is_ground++) {
         FrBrick *inside = &voxels->inside[is_ground];
         memset(inside->taken, 0xff, sizeof inside->taken);
@@ -83,7 +83,7 @@ void fr_voxels_free(FrVoxels *voxels) {
         g_ptr_array_free(voxels->spare, TRUE);
         g_free(voxels->inside_block[0]);
         g_free(voxels->inside_block[1]);
-        g_mutex_clear(&voxels->lock);
+        pthread_mutex_destroy(&voxels->lock);
         g_free(voxels->top);
         g_free(voxels);
     }
@@ -182,7 +182,7 @@ FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell) {
     if (brick != NULL && __atomic_load_n(&brick->owners, __ATOMIC_ACQUIRE) != NULL) {
         return brick;
     }
-    g_mutex_lock(&voxels->lock);
+    pthread_mutex_lock(&voxels->lock);
     brick = fr_voxels_make(voxels, cell);
     FR_ASSERT(brick != NULL);
     if (brick->owners == NULL) {
@@ -191,7 +191,7 @@ FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell) {
         memset(owners, 0xff, FR_BRICK_CELLS * sizeof(uint32_t));
         __atomic_store_n(&brick->owners, owners, __ATOMIC_RELEASE);
     }
-    g_mutex_unlock(&voxels->lock);
+    pthread_mutex_unlock(&voxels->lock);
     return brick;
 }
 
