@@ -55,7 +55,8 @@ static bool is_same_place(const FrPlace *a, const FrPlace *b) {
 }
 
 static bool is_same_gaps(const GArray *a, const GArray *b) {
-    return a->len == b->len && memcmp(a->data, b->data, a->len * sizeof(uint32_t)) == 0;
+    return a->len == b->len &&
+           (a->len == 0 || memcmp(a->data, b->data, a->len * sizeof(uint32_t)) == 0);
 }
 
 // Whether another document has all rows and areas of one, with the same plants left out.
