@@ -73,6 +73,10 @@ FR_API FrDigest fr_lstring_digest(const FrLstring *string);
 
 // ---- environment ------------------------------------------------------------------------------
 
+/// Parameters of ?E in a scene: light, its direction (3), how sure that is; then how far it is to
+/// what stands nearest, and to what stands straight ahead, m.
+enum { FR_LFIRST_OF_SPACE = 5 };
+
 /// What an open symbol tells about its place, in the plant's coordinates (metres, z up).
 typedef struct FrLquery {
     char symbol;       ///< 'E' of ?E, or the symbol that has open parameters: R, I, …
@@ -158,6 +162,8 @@ FR_API FR_MUST_USE FrStatus fr_lderivation_run(FrLderivation *derivation, uint64
 FR_API FR_MUST_USE FrStatus fr_lderivation_ask(FrLderivation *derivation, const FrContext *context);
 /// True if the system has symbols that ask.
 FR_API bool fr_lsystem_is_open(const FrLsystem *system);
+/// True if some of them ask for free space: D(?), or a ?E of six or more parameters.
+FR_API bool fr_lsystem_asks_space(const FrLsystem *system);
 FR_API const FrLstring *fr_lderivation_string(const FrLderivation *derivation);
 /// The string after homomorphism, to be freed with fr_lstring_free().
 FR_API FR_MUST_USE FrStatus fr_lderivation_homomorphism(FrLderivation *derivation,

@@ -43,8 +43,8 @@ FR_API uint64_t fr_simulation_step_count(const FrSimulation *simulation);
 FR_API FR_MUST_USE FrStatus fr_simulation_scene(FrSimulation *simulation, const FrContext *context,
                                                 const FrScene **scene);
 
-/// All that has grown, to go on with later; NULL with a diagnostic where plants that are L-systems
-/// grow too. Free with g_bytes_unref().
+/// All that has grown, to go on with later: bud by bud as it stands, L-systems as what they have
+/// been answered. NULL with a diagnostic where nothing grows by steps. Free with g_bytes_unref().
 FR_API GBytes *fr_simulation_save(const FrSimulation *simulation, const FrContext *context);
 /// Takes up a saved state. FR_ERR_DOCUMENT with a diagnostic at `span`, and nothing changed, if the
 /// bytes are damaged, or were saved by another version of the program, from another document or
@@ -61,7 +61,7 @@ typedef struct FrSceneOptions {
     const void *resume; ///< a saved state to go on from; NULL: none
     size_t resume_size;
     FrSpan resume_span;
-    /// Called after each step of plants that grow bud by bud; NULL. Anything but FR_OK ends it.
+    /// Called after each step of plants that grow by steps; NULL. Anything but FR_OK ends it.
     FrStatus (*after_step)(void *data, const FrSimulation *simulation, const FrContext *context);
     void *data;
 } FrSceneOptions;

@@ -12,6 +12,16 @@ bool cli_growth_takes_steps(const FrDocument *document) {
     return takes;
 }
 
+/// True where anything grows step by step: then it can be saved between two.
+static bool grows_by_steps(const FrDocument *document) {
+    const GPtrArray *plants = fr_document_plants(document);
+    bool grows = cli_growth_takes_steps(document);
+    for (guint i = 0; i < plants->len && !grows; i++) {
+        grows = fr_scene_is_lit(document, g_ptr_array_index(plants, i));
+    }
+    return grows;
+}
+
 /// The file is replaced at once, so that one step is lost at most.
 static FrStatus write_checkpoint(CliSession *session, const FrSimulation *simulation,
                                  const FrContext *context) {
@@ -26,21 +36,27 @@ static FrStatus write_checkpoint(CliSession *session, const FrSimulation *simula
     return status;
 }
 
+/// Once for each step of what grows bud by bud.
 static void note_stand(CliSession *session, const FrGrowth *growth) {
     CliStand stand = {.step = fr_growth_step_count(growth)};
+    GArray *stands = session->stands;
+    if (stands->len > 0 && g_array_index(stands, CliStand, stands->len - 1).step >= stand.step) {
+        return;
+    }
     for (uint32_t i = 0; i < fr_growth_plant_count(growth); i++) {
         if (fr_growth_is_alive(growth, i)) {
             stand.living++;
             stand.wood += fr_growth_wood(growth, i);
         }
     }
-    g_array_append_val(session->stands, stand);
+    g_array_append_val(stands, stand);
 }
 
 static FrStatus after_step(void *data, const FrSimulation *simulation, const FrContext *context) {
     CliSession *session = data;
-    if (session->options->stats != NULL) {
-        note_stand(session, fr_simulation_growth(simulation));
+    const FrGrowth *growth = fr_simulation_growth(simulation);
+    if (session->options->stats != NULL && growth != NULL) {
+        note_stand(session, growth);
     }
     return session->options->checkpoint == NULL ? FR_OK
                                                 : write_checkpoint(session, simulation, context);
@@ -51,9 +67,8 @@ FrStatus cli_session_grow(CliSession *session, const FrDocument *document, doubl
     const CliOptions *options = session->options;
     *scene = NULL;
     g_array_set_size(session->stands, 0);
-    if ((options->checkpoint != NULL || options->resume != NULL) &&
-        !cli_growth_takes_steps(document)) {
-        cli_message("nothing in the document grows bud by bud, so there is nothing to save or "
+    if ((options->checkpoint != NULL || options->resume != NULL) && !grows_by_steps(document)) {
+        cli_message("nothing in the document grows step by step, so there is nothing to save or "
                     "resume");
         return FR_ERR_USAGE;
     }

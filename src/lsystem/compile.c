@@ -222,3 +222,7 @@ FrStatus fr_lsystem_compile(FrSource *source, const FrLoptions *options, const F
 bool fr_lsystem_is_open(const FrLsystem *system) {
     return system->is_open;
 }
+
+bool fr_lsystem_asks_space(const FrLsystem *system) {
+    return system->asks_space;
+}

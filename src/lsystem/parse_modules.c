@@ -95,6 +95,17 @@ static void check_count(FrLparser *parser, unsigned count, size_t begin) {
     }
 }
 
+/// D(?), or the E of a ?E that has places for free space.
+static bool asks_space(const FrLparser *parser, guint head, int symbol, int before) {
+    const uint32_t *words = (const uint32_t *)(const void *)parser->system->words->data + head;
+    bool is_open = false;
+    for (unsigned k = 0; k < fr_lhead_count(*words); k++) {
+        is_open |= words[1 + k] == FR_LOPEN;
+    }
+    return (symbol == 'D' && is_open) ||
+           (before == '?' && symbol == 'E' && fr_lhead_count(*words) >= FR_LFIRST_OF_SPACE + 1);
+}
+
 static void read_module(FrLparser *parser, int symbol, FrLmodules *modules) {
     guint head = parser->system->words->len;
     unsigned count = 0;
@@ -119,7 +130,9 @@ FrLmodules fr_lparse_modules(FrLparser *parser) {
     int before = 0;
     if (!fr_lparse_accept(parser, "*")) {
         for (int symbol; !parser->has_failed && (symbol = read_symbol(parser)) >= 0;) {
+            guint head = system->words->len;
             read_module(parser, symbol, &modules);
+            system->asks_space |= asks_space(parser, head, symbol, before);
             system->has_cut |= symbol == '%';
             system->has_at |= symbol == '@';
             system->is_open |= before == '?' && strchr("PHLUQE", symbol) != NULL;

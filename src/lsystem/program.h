@@ -198,6 +198,7 @@ struct FrLsystem {
     GArray *values;      ///< double: set from outside, variables from FR_LVAR_FIRST on
     char *folder;        ///< owned; where files are read from, NULL: nowhere
     bool is_open;        ///< asks an environment or the turtle
+    bool asks_space;     ///< … for free space
     bool has_cut;        ///< % occurs
     bool has_at;         ///< @ occurs, so that more of the turtle's state may change
     bool is_paper;       ///< written in the notation of papers

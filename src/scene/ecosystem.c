@@ -21,7 +21,7 @@ struct FrEcosystem {
     GHashTable *ids;        ///< of seeds, each to 1 if it is the previous one's and not placed yet
     FrEcosystem *previous;  ///< to go on from, borrowed; NULL
     FrGrowth *growth;       ///< NULL before it begins
-    FrDigest world;         ///< of what stands in the way
+    FrDigest world;         ///< of what stood in the way when it began
 };
 
 static void drop_species(FrSpecies *species, FrDistance **envelopes, guint count) {
@@ -56,6 +56,12 @@ uint32_t fr_ecosystem_history(const FrEcosystem *ecosystem) {
 
 bool fr_ecosystem_is_empty(const FrEcosystem *ecosystem) {
     return ecosystem->seeds->len == 0;
+}
+
+void fr_ecosystem_mark(const FrEcosystem *ecosystem, uint8_t *is_growing) {
+    for (guint i = 0; i < ecosystem->plants->len; i++) {
+        is_growing[g_array_index(ecosystem->plants, uint32_t, i)] = 1;
+    }
 }
 
 // ---- seeds ------------------------------------------------------------------------------------
@@ -199,19 +205,16 @@ static void set_obstacles(World *world) {
 static FrStatus add_solids(const FrEcosystem *ecosystem, World *world, const FrScene *scene,
                            const FrHills *hills, const FrContext *context) {
     FrStatus status = add_surroundings(world, scene, hills, context);
-    GHashTable *growing = g_hash_table_new(NULL, NULL);
-    for (guint i = 0; i < ecosystem->plants->len; i++) {
-        uint32_t plant = g_array_index(ecosystem->plants, uint32_t, i);
-        g_hash_table_add(growing, GUINT_TO_POINTER(plant));
-    }
+    uint8_t *is_growing = g_new0(uint8_t, scene->plants->len + 1);
+    fr_ecosystem_mark(ecosystem, is_growing);
     for (guint i = 0; i < fr_scene_stand_count(scene) && status == FR_OK; i++) {
         const FrStand *stand = &g_array_index(scene->stands, FrStand, i);
         const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, stand->plant).plant;
-        if (!g_hash_table_contains(growing, GUINT_TO_POINTER(stand->plant)) && plant != NULL) {
+        if (!is_growing[stand->plant] && plant != NULL) {
             status = fr_solids_add_plant(&world->solids, plant, stand, context);
         }
     }
-    g_hash_table_unref(growing);
+    g_free(is_growing);
     set_obstacles(world);
     return status;
 }
@@ -254,7 +257,6 @@ static void keep_species(FrEcosystem *ecosystem, World *world) {
     drop_species(ecosystem->species, ecosystem->envelopes, ecosystem->definitions->len);
     ecosystem->species = world->species;
     ecosystem->envelopes = world->envelopes;
-    ecosystem->world = fr_solids_digest(&world->solids);
     world->species = NULL;
     world->envelopes = NULL;
     clear_world(world, 0);
@@ -337,6 +339,7 @@ static FrStatus begin(FrEcosystem *ecosystem, const FrScene *scene, const FrHill
     guint old_particles =
         previous == NULL ? 0 : fr_document_growth(previous->document)->particles->len;
     status = make_growth(ecosystem, &world, context);
+    ecosystem->world = fr_solids_digest(&world.solids);
     keep_species(ecosystem, &world);
     if (status == FR_OK) {
         uint32_t old = fr_growth_plant_count(ecosystem->growth);

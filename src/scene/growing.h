@@ -6,7 +6,8 @@
 
 typedef struct FrGrowing FrGrowing;
 
-/// True for what answers light: an L-system with open symbols in a scene that has a `<light>`.
+/// True for what asks the scene: an L-system with open symbols where there is a `<light>`, or with
+/// some that ask for free space.
 bool fr_growing_is_wanted(const FrScene *scene, const FrPlantDef *definition);
 /// Who looks on while plants grow: `see` is shown the first plant of a definition in each step, as
 /// it was derived and again as the light has answered it, and at last as it stands in the end.
@@ -27,15 +28,26 @@ FR_MUST_USE FrStatus fr_growing_add(FrGrowing *growing, FrScene *scene,
                                     const FrStand *stand, const FrContext *context);
 /// True if there are any.
 bool fr_growing_is_any(const FrGrowing *growing);
-/// Makes the light they grow in, if there are any.
-FR_MUST_USE FrStatus fr_growing_begin(FrGrowing *growing, const FrScene *scene,
+/// Makes the light and the room they grow in, if there are any. `is_moving`: by plant of the scene,
+/// set for what grows in another way; those that grow here are set besides.
+FR_MUST_USE FrStatus fr_growing_begin(FrGrowing *growing, const FrScene *scene, uint8_t *is_moving,
                                       const FrContext *context);
+/// The most steps that any takes.
+uint64_t fr_growing_longest(const FrGrowing *growing);
 /// True while any has steps left.
 bool fr_growing_has_steps(const FrGrowing *growing);
 /// One time around the loop.
 FR_MUST_USE FrStatus fr_growing_step(FrGrowing *growing, FrScene *scene, const FrContext *context);
+/// The plants as they have been derived, which the scene's show one step later: those of the scene
+/// are exchanged with `other` (FrPlant *), which is filled if it is empty.
+FR_MUST_USE FrStatus fr_growing_exchange(const FrGrowing *growing, FrScene *scene,
+                                         const FrContext *context, GPtrArray *other);
+/// All that has grown, appended.
+void fr_growing_save(const FrGrowing *growing, GByteArray *out);
+/// Takes up such a state. FR_ERR_DOCUMENT with a diagnostic if it is none of these plants; after a
+/// failure they are as they were.
+FR_MUST_USE FrStatus fr_growing_restore(FrGrowing *growing, const void *bytes, size_t size,
+                                        FrSpan span, const FrContext *context);
 /// The plants as they stand in the end.
 FR_MUST_USE FrStatus fr_growing_finish(FrGrowing *growing, FrScene *scene,
                                        const FrContext *context);
-/// Grows them all to their ends, from where fr_growing_begin() put them.
-FR_MUST_USE FrStatus fr_growing_run(FrGrowing *growing, FrScene *scene, const FrContext *context);

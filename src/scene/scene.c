@@ -354,7 +354,10 @@ static FrStatus build_all(Build *build) {
         status = fr_ecosystem_begin(build->ecosystem, scene, build->hills, build->context);
     }
     if (status == FR_OK) {
-        status = fr_growing_begin(build->growing, scene, build->context);
+        uint8_t *is_moving = g_new0(uint8_t, scene->plants->len + 1);
+        fr_ecosystem_mark(build->ecosystem, is_moving);
+        status = fr_growing_begin(build->growing, scene, is_moving, build->context);
+        g_free(is_moving);
     }
     if (status == FR_OK) {
         set_surfaces(build);

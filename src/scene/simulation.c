@@ -32,7 +32,27 @@ static FrStatus draw(FrSimulation *simulation, const FrContext *context, GPtrArr
     return status;
 }
 
-/// Plants that answer the light see those that grow bud by bud, and these keep off them.
+/// What grows bud by bud keeps off the others as they are now.
+static FrStatus renew(FrSimulation *simulation, const FrContext *context) {
+    GPtrArray *grown = g_ptr_array_new_with_free_func(free_plant);
+    FrStatus status = fr_growing_exchange(simulation->growing, simulation->scene, context, grown);
+    if (status == FR_OK) {
+        status = fr_ecosystem_renew(simulation->ecosystem, simulation->scene, simulation->hills,
+                                    context);
+        FrStatus back = fr_growing_exchange(simulation->growing, simulation->scene, context, grown);
+        FR_ASSERT(back == FR_OK);
+    }
+    g_ptr_array_unref(grown);
+    return status;
+}
+
+FrStatus fr_simulation_take_up(FrSimulation *simulation, const FrContext *context) {
+    simulation->is_drawn = false;
+    bool is_mixed = fr_simulation_is_growing(simulation) && fr_growing_is_any(simulation->growing);
+    return is_mixed ? renew(simulation, context) : FR_OK;
+}
+
+/// Plants that ask the scene see those that grow bud by bud, and these keep off them.
 static FrStatus step_growing(FrSimulation *simulation, const FrContext *context) {
     GPtrArray *old = g_ptr_array_new_with_free_func(free_plant);
     FrStatus status = draw(simulation, context, old);
@@ -41,8 +61,7 @@ static FrStatus step_growing(FrSimulation *simulation, const FrContext *context)
     }
     g_ptr_array_unref(old);
     if (status == FR_OK && fr_simulation_is_growing(simulation)) {
-        status = fr_ecosystem_renew(simulation->ecosystem, simulation->scene, simulation->hills,
-                                    context);
+        status = renew(simulation, context);
     }
     return status;
 }
@@ -85,27 +104,29 @@ static bool has_steps(const FrSimulation *simulation) {
            fr_growing_has_steps(simulation->growing);
 }
 
+/// How many there will be at most.
+static uint64_t steps_of(const FrSimulation *simulation) {
+    uint64_t buds = fr_simulation_is_growing(simulation) ? simulation->steps : 0;
+    return MAX(MAX(buds, fr_growing_longest(simulation->growing)), 1);
+}
+
 static FrStatus run_step(FrSimulation *simulation, const FrSceneOptions *options,
                          const FrContext *context) {
     bool is_growing =
         fr_simulation_is_growing(simulation) && steps_done(simulation) < simulation->steps;
     FrStatus status =
         is_growing ? fr_simulation_step(simulation, context) : step_growing(simulation, context);
-    uint64_t step = steps_done(simulation);
-    if (status == FR_OK && is_growing && options->after_step != NULL) {
+    uint64_t step = MAX(steps_done(simulation), simulation->scene->steps->len);
+    if (status == FR_OK && options->after_step != NULL) {
         status = options->after_step(options->data, simulation, context);
     }
-    fr_progress_report(context->progress, "build",
-                       (double)step / (double)MAX(simulation->steps, 1));
+    fr_progress_report(context->progress, "build", (double)step / (double)steps_of(simulation));
     return status == FR_OK && fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : status;
 }
 
 /// All steps that are asked for, and the plants as they stand then.
 static FrStatus run(FrSimulation *simulation, const FrSceneOptions *options,
                     const FrContext *context) {
-    if (!fr_simulation_is_growing(simulation)) {
-        return fr_growing_run(simulation->growing, simulation->scene, context);
-    }
     FrStatus status = FR_OK;
     if (options->resume != NULL) {
         status = fr_simulation_restore(simulation, options->resume, options->resume_size,

@@ -34,6 +34,8 @@ FR_MUST_USE FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow
                                     const FrContext *context, FrSimulation *simulation);
 /// Frees all but the struct itself.
 void fr_simulation_clear(FrSimulation *simulation);
+/// Makes what stands in the way of buds anew after a state was taken up.
+FR_MUST_USE FrStatus fr_simulation_take_up(FrSimulation *simulation, const FrContext *context);
 /// Builds a document with all its steps.
 FR_MUST_USE FrStatus fr_scene_run(const FrDocument *document, const FrSceneHow *how,
                                   const FrContext *context, FrScene **scene);

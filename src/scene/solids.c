@@ -49,11 +49,12 @@ static FrGrowthObstacle solid_of(const FrMesh *mesh, const FrStand *stand) {
                               .index_count = (uint32_t)mesh->index_count};
 }
 
-static FrStatus mesh_solid(const FrPlant *plant, const FrStand *stand, int lod,
+static FrStatus mesh_solid(const FrPlant *plant, const FrStand *stand, int lod, bool has_leaves,
                            const FrContext *context, FrGrowthObstacle *solid) {
     FrSkinParams skin = fr_skin_default();
     skin.lod = lod;
     skin.collar = 0;
+    skin.foliage = has_leaves;
     FrMesh *mesh;
     FrStatus status = fr_skin_plant(plant, &skin, FR_UP_Z, context, &mesh);
     if (status == FR_OK) {
@@ -63,15 +64,25 @@ static FrStatus mesh_solid(const FrPlant *plant, const FrStand *stand, int lod,
     return status;
 }
 
-FrStatus fr_solids_add_plant(FrSolids *solids, const FrPlant *plant, const FrStand *stand,
-                             const FrContext *context) {
+static FrStatus add_plant(FrSolids *solids, const FrPlant *plant, const FrStand *stand,
+                          bool has_leaves, const FrContext *context) {
     enum { LOD = 2 };
     FrGrowthObstacle solid;
-    FrStatus status = mesh_solid(plant, stand, LOD, context, &solid);
+    FrStatus status = mesh_solid(plant, stand, LOD, has_leaves, context, &solid);
     if (status == FR_OK) {
         g_array_append_val(solids->all, solid);
     }
     return status;
+}
+
+FrStatus fr_solids_add_plant(FrSolids *solids, const FrPlant *plant, const FrStand *stand,
+                             const FrContext *context) {
+    return add_plant(solids, plant, stand, true, context);
+}
+
+FrStatus fr_solids_add_wood(FrSolids *solids, const FrPlant *plant, const FrStand *stand,
+                            const FrContext *context) {
+    return add_plant(solids, plant, stand, false, context);
 }
 
 static FrStatus add_obstacle(FrSolids *solids, const FrObstacle *obstacle,
@@ -83,7 +94,7 @@ static FrStatus add_obstacle(FrSolids *solids, const FrObstacle *obstacle,
     }
     const FrStand origin = {.scale = 1};
     FrGrowthObstacle solid;
-    status = mesh_solid(plant, &origin, 0, context, &solid);
+    status = mesh_solid(plant, &origin, 0, true, context, &solid);
     if (status == FR_OK) {
         solid.is_clear = !obstacle->visible;
         solid.span = obstacle->span;

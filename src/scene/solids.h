@@ -22,5 +22,8 @@ FR_MUST_USE FrStatus fr_solids_add_surroundings(FrSolids *solids, const FrScene 
 /// A plant where it stands.
 FR_MUST_USE FrStatus fr_solids_add_plant(FrSolids *solids, const FrPlant *plant,
                                          const FrStand *stand, const FrContext *context);
+/// Its wood alone.
+FR_MUST_USE FrStatus fr_solids_add_wood(FrSolids *solids, const FrPlant *plant,
+                                        const FrStand *stand, const FrContext *context);
 /// Changes where any of it does.
 FrDigest fr_solids_digest(const FrSolids *solids);

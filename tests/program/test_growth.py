@@ -51,6 +51,47 @@ def killed(folder):
         assert reached[:14] == whole[:len(reached)]
 
 
+# Two L-systems that ask for room, and a tree between them.
+MIXED = """<frond version="1">
+  <plant id="p"><lsystem><![CDATA[
+derivation length: 40
+w : D(?,?)A
+p1 : D(d,a) < A : a > 0.2 -> F(0.1)[+(60)f(0.1)]D(?,?)A
+  ]]></lsystem></plant>
+  <plant id="t"><species model="open" step="0.2" auxin-reach="1" leaves="1"/></plant>
+  <scene>
+    <growth steps="40" min="-4, -4, -1" max="4, 4, 6" cell="0.05"/>
+    <place plant="p" at="0.4, 0, 0"/>
+    <place plant="p" at="-0.4, 0, 0"/>
+    <place plant="t"/>
+  </scene>
+</frond>
+"""
+
+
+def killed_among(folder):
+    """L-systems that ask go on from a checkpoint as if nothing had happened."""
+    document = folder / "mixed.frond"
+    document.write_text(MIXED)
+    whole = tap.statistics(document)
+    for k, wait in enumerate((0, 0.1, 0.3)):
+        saved = folder / f"mixed{k}"
+        run = subprocess.Popen([tap.PROGRAM, "build", str(document), "-q", "--checkpoint",
+                                str(saved)], stderr=subprocess.DEVNULL, cwd=folder)
+        while not saved.exists() and run.poll() is None:
+            time.sleep(0.01)
+        time.sleep(wait)
+        os.kill(run.pid, signal.SIGKILL)
+        run.wait()
+        stats = tap.statistics(document, "--resume", saved)
+        assert stats["digest"] == whole["digest"], (stats["digest"], whole["digest"])
+    content = saved.read_bytes()
+    broken = folder / "broken-mixed"
+    for at in range(0, len(content), max(1, len(content) // 30)):
+        broken.write_bytes(content[:at] + bytes([content[at] ^ 0x41]) + content[at + 1:])
+        tap.run("build", document, "-q", "--resume", broken, status=1)
+
+
 def refused(folder):
     saved = folder / "saved"
     tap.run("build", PARTS, "-q", "--steps", 3, "--checkpoint", saved)
@@ -67,7 +108,7 @@ def refused(folder):
         said = tap.run("build", *case, status=1).stderr
         assert f"[{code}]" in said, said
     nothing = tap.run("build", tap.SOURCE / "examples" / "figure2.frond", "--resume", saved, status=2)
-    assert "grows bud by bud" in nothing.stderr
+    assert "grows step by step" in nothing.stderr
 
 
 def damaged(folder):
@@ -159,6 +200,7 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
          ("/program/growth/a run resumed at any step ends as one that was not broken off",
           resumed_at_every_step),
          ("/program/growth/a run that is killed loses a step at most", killed),
+         ("/program/growth/so does one in which L-systems grow too", killed_among),
          ("/program/growth/checkpoints of other documents, seeds and versions are refused", refused),
          ("/program/growth/damaged checkpoints are refused", damaged),
          ("/program/growth/frames show the steps", frames),

@@ -1,0 +1,39 @@
+/// @file growing_parts.h
+/// What the files of growing plants share. Private to them.
+#pragma once
+
+#include "scene/answers.h"
+#include "scene/clearance.h"
+#include "scene/growing.h"
+
+/// One plant.
+typedef struct FrSprout {
+    const FrPlantDef *definition;
+    FrLderivation *derivation;
+    FrStand stand;
+    uint32_t plant; ///< of the scene
+    int64_t seed;
+    FrAnswers answers; ///< to its open symbols so far
+} FrSprout;
+
+struct FrGrowing {
+    GPtrArray *sprouts;     ///< FrSprout *
+    FrLighting *lighting;   ///< NULL: the scene has no light of its own
+    FrClearance *clearance; ///< NULL: nobody asks for it
+    uint64_t steps;         ///< at most
+    uint64_t queries;       ///< answered in this step
+    uint64_t done;          ///< steps
+    FrEnvironment environment;
+    FrSprout *asking;
+    bool is_regrowing; ///< answers are those of before
+    FrGrowingWatch watch;
+};
+
+void fr_sprout_free(void *sprout);
+/// A plant at its axiom.
+FR_MUST_USE FrStatus fr_growing_derive(const FrGrowing *growing, const FrPlantDef *definition,
+                                       int64_t seed, const FrContext *context,
+                                       FrLderivation **derivation);
+/// Answers open symbols of the plant that asks, anew or as they were (FrEnvironment).
+FrStatus fr_growing_answer(void *growing, const FrLquery *queries, size_t count,
+                           const FrContext *context);

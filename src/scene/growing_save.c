@@ -1,0 +1,102 @@
+/// The state of plants that grow together as bytes: of each, how many steps it has done and what it
+/// has been answered. From that and its seed it is derived again.
+#include "scene/growing_parts.h"
+
+#include <string.h>
+
+/// What stands before the answers of a plant.
+typedef struct SproutHead {
+    uint64_t step, words;
+    FrDigest string; ///< that it has come to
+} SproutHead;
+
+void fr_growing_save(const FrGrowing *growing, GByteArray *out) {
+    const uint64_t head[2] = {growing->done, growing->sprouts->len};
+    g_byte_array_append(out, (const guint8 *)head, sizeof head);
+    for (guint i = 0; i < growing->sprouts->len; i++) {
+        const FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
+        const GArray *words = sprout->answers.words;
+        const SproutHead own = {fr_lderivation_step(sprout->derivation), words->len,
+                                fr_lstring_digest(fr_lderivation_string(sprout->derivation))};
+        g_byte_array_append(out, (const guint8 *)&own, sizeof own);
+        g_byte_array_append(out, (const guint8 *)words->data, words->len * sizeof(uint32_t));
+    }
+}
+
+/// Takes so many bytes; false if there are not.
+static bool take(const uint8_t **at, size_t *left, void *into, size_t size) {
+    if (size > *left) {
+        return false;
+    }
+    if (size > 0) {
+        memcpy(into, *at, size);
+    }
+    *at += size;
+    *left -= size;
+    return true;
+}
+
+/// Derives a plant to where it was.
+static FrStatus regrow(FrGrowing *growing, FrSprout *sprout, const SproutHead *head,
+                       const FrContext *context) {
+    FrStatus status =
+        fr_growing_derive(growing, sprout->definition, sprout->seed, context, &sprout->derivation);
+    if (status != FR_OK) {
+        return status;
+    }
+    growing->asking = sprout;
+    bool is_right = head->step <= fr_lderivation_length(sprout->derivation);
+    for (uint64_t i = 0; i < head->step && is_right && status == FR_OK; i++) {
+        status = fr_lderivation_run(sprout->derivation, 1, context);
+        is_right = fr_lderivation_step(sprout->derivation) == i + 1;
+    }
+    is_right = is_right && sprout->answers.read == sprout->answers.words->len &&
+               fr_lstring_digest(fr_lderivation_string(sprout->derivation)) == head->string;
+    return status == FR_OK && !is_right ? FR_ERR_DOCUMENT : status;
+}
+
+/// A plant like `old`, grown from the bytes.
+static FrStatus take_sprout(FrGrowing *growing, const FrSprout *old, const uint8_t **at,
+                            size_t *left, const FrContext *context, FrSprout *sprout) {
+    SproutHead head;
+    *sprout = *old;
+    sprout->derivation = NULL;
+    sprout->answers = fr_answers_new();
+    if (!take(at, left, &head, sizeof head) || head.words > *left / sizeof(uint32_t)) {
+        return FR_ERR_DOCUMENT;
+    }
+    g_array_set_size(sprout->answers.words, (guint)head.words);
+    bool is_there = take(at, left, sprout->answers.words->data, head.words * sizeof(uint32_t));
+    return is_there ? regrow(growing, sprout, &head, context) : FR_ERR_DOCUMENT;
+}
+
+FrStatus fr_growing_restore(FrGrowing *growing, const void *bytes, size_t size, FrSpan span,
+                            const FrContext *context) {
+    const uint8_t *at = bytes;
+    uint64_t head[2];
+    bool has_head = take(&at, &size, head, sizeof head) && head[0] <= fr_growing_longest(growing) &&
+                    head[1] == growing->sprouts->len;
+    FrStatus status = has_head ? FR_OK : FR_ERR_DOCUMENT;
+    GPtrArray *sprouts = g_ptr_array_new_with_free_func(fr_sprout_free);
+    growing->is_regrowing = true;
+    for (guint i = 0; i < growing->sprouts->len && status == FR_OK; i++) {
+        FrSprout *sprout = g_new0(FrSprout, 1);
+        g_ptr_array_add(sprouts, sprout);
+        status = take_sprout(growing, g_ptr_array_index(growing->sprouts, i), &at, &size, context,
+                             sprout);
+    }
+    growing->is_regrowing = false;
+    growing->asking = NULL;
+    status = status == FR_OK && size > 0 ? FR_ERR_DOCUMENT : status;
+    if (status == FR_OK) {
+        GPtrArray *old = growing->sprouts;
+        growing->sprouts = sprouts;
+        growing->done = head[0];
+        sprouts = old;
+    } else if (status == FR_ERR_DOCUMENT) {
+        fr_diags_add(context->diags, FR_ERROR, "damaged-checkpoint", span,
+                     "the L-systems of this saved growth do not grow again as they were");
+    }
+    g_ptr_array_unref(sprouts);
+    return status;
+}
