@@ -276,6 +276,34 @@ static void test_full_disk(void) {
     g_free(folder);
 }
 
+static void test_changed_elsewhere(void) {
+    static const char theirs[] = "<frond version='1'/>\n";
+    char *folder = g_dir_make_tmp("studio-XXXXXX", NULL);
+    char *path = g_build_filename(folder, "x.frond", NULL), *read;
+    StudioDocument *document = small_document();
+    g_assert_cmpint(studio_document_save(document, path, NULL), ==, FR_OK);
+    studio_set(document, element_of(document, "stem"), "length", "2", false);
+    g_assert_cmpint(studio_document_save(document, NULL, NULL), ==, FR_OK);
+    g_assert_true(g_file_set_contents(path, theirs, -1, NULL));
+    studio_set(document, element_of(document, "stem"), "length", "3", false);
+    FrDiags *diags = fr_diags_new();
+    g_assert_cmpint(studio_document_save(document, NULL, diags), ==, FR_ERR_MACHINE);
+    g_assert_cmpstr(fr_diags_get(diags, 0)->code, ==, "changed-file");
+    g_assert_false(studio_document_is_saved(document));
+    g_assert_true(g_file_get_contents(path, &read, NULL, NULL));
+    g_assert_cmpstr(read, ==, theirs);
+    // Who names the file means it.
+    g_assert_cmpint(studio_document_save(document, path, NULL), ==, FR_OK);
+    g_assert_true(studio_document_is_saved(document));
+    fr_diags_free(diags);
+    studio_document_free(document);
+    g_free(read);
+    g_unlink(path);
+    g_rmdir(folder);
+    g_free(path);
+    g_free(folder);
+}
+
 static void test_saved(void) {
     char *folder = g_dir_make_tmp("studio-XXXXXX", NULL);
     char *path = g_build_filename(folder, "x.frond", NULL);
@@ -416,6 +444,8 @@ int main(int argc, char **argv) {
                     test_unchanged_save);
     g_test_add_func("/studio/document/on a full disk the file stays and it is told",
                     test_full_disk);
+    g_test_add_func("/studio/document/what another has written meanwhile is not written over",
+                    test_changed_elsewhere);
     g_test_add_func("/studio/document/it knows whether it is saved", test_saved);
     g_test_add_func("/studio/document/watchers hear of each change once", test_watchers);
     g_test_add_func("/studio/document/killed while saving 100 times the file is whole",

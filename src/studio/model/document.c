@@ -20,6 +20,8 @@ struct StudioDocument {
     FrContents *contents; // of the last well-formed text; NULL if there was none
     bool is_broken;
     bool is_recovered; // the file holds another text than the first of the history
+    FrDigest on_disk;  // of the file when it was read or saved …
+    bool knows_disk;   // … if it was
     uint64_t revision;
     char *path, *name, *folder;
     GArray *watchers; // Watcher
@@ -108,6 +110,8 @@ FrStatus studio_document_open(const char *path, FrDiags *diags, StudioDocument *
         *document = studio_document_new(text, size, "", NULL);
         adopt_path(*document, path);
         follow_text(*document);
+        (*document)->on_disk = fr_digest(0, text, size);
+        (*document)->knows_disk = true;
     }
     fr_source_unref(source);
     return FR_OK;
@@ -255,11 +259,29 @@ void studio_document_mark_unsaved(StudioDocument *document) {
     notify(document);
 }
 
+// Whether the file is another than the one that was read or saved; one that has gone is not.
+static bool is_changed_elsewhere(const StudioDocument *document) {
+    char *text = NULL;
+    gsize size = 0;
+    bool is_other = document->knows_disk &&
+                    g_file_get_contents(document->path, &text, &size, NULL) &&
+                    fr_digest(0, text, size) != document->on_disk;
+    g_free(text);
+    return is_other;
+}
+
 FrStatus studio_document_save(StudioDocument *document, const char *path, FrDiags *diags) {
     const char *to = path == NULL ? document->path : path;
     FR_ASSERT(to != NULL);
     size_t size;
     const char *text = studio_history_text(document->history, &size);
+    if (path == NULL && is_changed_elsewhere(document)) {
+        fr_diags_add(diags, FR_ERROR, "changed-file", (FrSpan){0},
+                     "%s was changed elsewhere since it was opened: open it again, or save this as "
+                     "another file",
+                     document->name);
+        return FR_ERR_MACHINE;
+    }
     FrStatus status = fr_contents_save(text, size, to, diags);
     if (status == FR_OK) {
         bool is_moved = g_strcmp0(to, document->path) != 0;
@@ -268,6 +290,8 @@ FrStatus studio_document_save(StudioDocument *document, const char *path, FrDiag
             follow_text(document); // the files it names may be others there
         }
         document->is_recovered = false;
+        document->on_disk = fr_digest(0, text, size);
+        document->knows_disk = true;
         studio_history_mark_saved(document->history);
         notify(document);
     }

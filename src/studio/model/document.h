@@ -62,7 +62,8 @@ uint32_t studio_document_steps(const StudioDocument *document);
 // ---- keeping it --------------------------------------------------------------------------------
 
 bool studio_document_is_saved(const StudioDocument *document);
-/// Writes beside `path`, flushes, renames; `path` NULL: to its own file. Later it has that file.
+/// Writes beside `path`, flushes, renames; `path` NULL: to its own file, unless someone else has
+/// written that since (FR_ERR_MACHINE). Later it has that file.
 FR_MUST_USE FrStatus studio_document_save(StudioDocument *document, const char *path,
                                           FrDiags *diags);
 /// The text is not what its file holds: it was recovered.
