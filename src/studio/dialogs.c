@@ -127,6 +127,8 @@ static const Shortcut rows[] = {
     {NULL, "<Control><Shift>z", "Redo"},
     {NULL, "F8", "Go to the first problem"},
     {"Components", "<Control>d", "Duplicate"},
+    {NULL, "<Control>c", "Copy with all beneath it"},
+    {NULL, "<Control>v", "Paste onto the selected one"},
     {NULL, "Delete", "Remove"},
     {NULL, "<Control>k", "Enable or disable"},
     {NULL, "<Control>r", "Roll another seed"},

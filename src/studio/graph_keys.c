@@ -31,13 +31,13 @@ static uint32_t selected_wire(StudioGraphPanel *panel) {
 
 static char *words_of_box(StudioGraphPanel *panel, uint32_t index) {
     const StudioBox *box = studio_graph_box(panel->graph, index);
-    uint64_t *count = panel->counts == NULL ? NULL : g_hash_table_lookup(panel->counts, box->id);
+    const Load *load = studio_graph_load(panel, box);
     GString *words = g_string_new(box->id);
     g_string_append_printf(words, ", %s", fr_pgraph_table(box->kind)->element);
     if (!box->is_enabled) {
         g_string_append(words, ", off");
-    } else if (count != NULL) {
-        g_string_append_printf(words, ", %" G_GUINT64_FORMAT " in the plant", *count);
+    } else if (load != NULL) {
+        g_string_append_printf(words, ", %" G_GUINT64_FORMAT " in the plant", load->instances);
     }
     g_string_append(words, box->is_recursive ? ", repeated" : "");
     return g_string_free(words, FALSE);
@@ -207,6 +207,11 @@ static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkMo
     case GDK_KEY_l:
         pick_up(panel);
         return TRUE;
+    case GDK_KEY_c:
+    case GDK_KEY_v:
+        return (state & GDK_CONTROL_MASK) != 0 &&
+               gtk_widget_activate_action(
+                   GTK_WIDGET(panel), key == GDK_KEY_c ? "win.copy-part" : "win.paste-part", NULL);
     case GDK_KEY_Page_Up:
     case GDK_KEY_Page_Down:
         select_wire(panel, key == GDK_KEY_Page_Down);

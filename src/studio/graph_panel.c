@@ -267,7 +267,9 @@ static void add_controllers(StudioGraphPanel *panel) {
 }
 
 static void studio_graph_panel_init(StudioGraphPanel *panel) {
-    static const char *const items[][2] = {{"Duplicate", "win.duplicate"},
+    static const char *const items[][2] = {{"Copy", "win.copy-part"},
+                                           {"Paste", "win.paste-part"},
+                                           {"Duplicate", "win.duplicate"},
                                            {"Enable or Disable", "win.toggle-enabled"},
                                            {"Keep as a Preset…", "win.save-preset"},
                                            {"Insert a Preset…", "win.insert-preset"},

@@ -451,13 +451,14 @@ void studio_window_update_actions(StudioWindow *window) {
     enable(window, "roll", plant != FR_NONE);
     bool has_graph = plant != FR_NONE && studio_graph_of(document, plant) != FR_NONE;
     static const char *const adding[] = {"add", "insert-preset", "insert-preset-on",
-                                         "insert-preset-named"};
+                                         "insert-preset-named", "paste-part"};
     for (size_t i = 0; i < G_N_ELEMENTS(adding); i++) {
         enable(window, adding[i], has_graph);
     }
     bool has_component = is_whole && studio_window_component(window) != NULL;
     enable(window, "save-preset", has_component);
     enable(window, "save-preset-as", has_component);
+    enable(window, "copy-part", has_component);
     enable(window, "duplicate", has_component);
     enable(window, "toggle-enabled", has_component);
     enable(window, "remove", is_there && studio_window_selected(window) != FR_NONE);

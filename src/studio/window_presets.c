@@ -287,12 +287,69 @@ static void do_insert_named(GSimpleAction *action, GVariant *parameter, gpointer
     g_free(on);
 }
 
+// ---- the clipboard -----------------------------------------------------------------------------
+
+// What is copied is a document: it can be pasted into a text as well.
+static void do_copy(GSimpleAction *action, GVariant *parameter, gpointer data) {
+    (void)action;
+    (void)parameter;
+    StudioWindow *window = data;
+    const char *id = studio_window_component(window);
+    char *refusal = NULL,
+         *text = id == NULL ? NULL
+                            : studio_subgraph_text(window->document, studio_window_plant(window),
+                                                   id, id, &refusal);
+    if (text != NULL) {
+        gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(window)), text);
+        studio_window_say(window, "Copied %s with everything beneath it", id);
+    } else if (refusal != NULL) {
+        studio_window_say(window, "%s", refusal);
+    }
+    g_free(refusal);
+    g_free(text);
+}
+
+static void paste(StudioWindow *window, const char *text) {
+    FrSource *source = fr_source_new("clipboard", text, strlen(text));
+    char *on = usual_place(window), *id = NULL;
+    const char *refusal = studio_subgraph_refusal(source);
+    if (refusal != NULL) {
+        studio_window_say(window, "What was copied is no part of a plant");
+    } else if (studio_insert_subgraph(window->document, studio_window_plant(window), source,
+                                      *on == '\0' ? NULL : on, &id)) {
+        studio_window_select_component(window, id);
+    }
+    g_free(id);
+    g_free(on);
+    fr_source_unref(source);
+}
+
+static void on_clipboard(GObject *clipboard, GAsyncResult *result, gpointer data) {
+    StudioWindow *window = data;
+    char *text = gdk_clipboard_read_text_finish(GDK_CLIPBOARD(clipboard), result, NULL);
+    GAction *action = g_action_map_lookup_action(G_ACTION_MAP(window), "paste-part");
+    if (text != NULL && window->document != NULL && g_action_get_enabled(action)) {
+        paste(window, text);
+    }
+    g_free(text);
+    g_object_unref(window);
+}
+
+static void do_paste(GSimpleAction *action, GVariant *parameter, gpointer data) {
+    (void)action;
+    (void)parameter;
+    gdk_clipboard_read_text_async(gtk_widget_get_clipboard(data), NULL, on_clipboard,
+                                  g_object_ref(data));
+}
+
 void studio_window_add_preset_actions(StudioWindow *window) {
     static const GActionEntry entries[] = {
         {.name = "save-preset", .activate = do_save},
         {.name = "save-preset-as", .activate = do_save_as, .parameter_type = "s"},
         {.name = "rename-preset", .activate = do_rename, .parameter_type = "s"},
         {.name = "remove-preset", .activate = do_remove, .parameter_type = "s"},
+        {.name = "copy-part", .activate = do_copy},
+        {.name = "paste-part", .activate = do_paste},
         {.name = "insert-preset", .activate = do_insert},
         {.name = "insert-preset-on", .activate = do_insert_on, .parameter_type = "s"},
         {.name = "insert-preset-named", .activate = do_insert_named, .parameter_type = "s"},

@@ -370,6 +370,14 @@ def test_preset(run):
     assert after["leaves"] == 2 * before["leaves"], after
     assert after["selected"].endswith("phiball:phiball2"), after
     studio.ask("do undo")
+    studio.click(studio.middle("box:phiball"))
+    studio.pointer("key", "ctrl+c")
+    studio.click(studio.middle("box:stem"))
+    studio.pointer("key", "ctrl+v")
+    studio.wait()
+    pasted = studio.state()
+    assert pasted["steps"] == before["steps"] + 1 and pasted["leaves"] == after["leaves"], pasted
+    studio.ask("do undo")
     studio.wait()
     assert studio.state()["digest"] == before["digest"]
 
