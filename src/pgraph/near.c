@@ -57,6 +57,9 @@ static void chain(FrNear *near, uint32_t index) {
 
 // Lays the points so that those near each other are mostly side by side in memory.
 static void sort_points(FrNear *near) {
+    if (near->count == 0) {
+        return;
+    }
     FrZorder order = fr_zorder(near->min, near->max);
     uint64_t *items = g_new(uint64_t, 2 * (size_t)near->count);
     for (uint32_t k = 0; k < near->count; k++) {
