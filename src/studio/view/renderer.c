@@ -169,6 +169,7 @@ static GLuint begin_surfaces(const Shot *shot) {
     studio_program_matrix(program, "clip", &shot->clip);
     studio_program_vec3(program, "eye", shot->eye);
     studio_program_vec3(program, "sun", sun);
+    studio_program_int(program, "is_wire", shot->display->mode == STUDIO_WIREFRAME);
     studio_piece_light(program, studio_store_shading(shot->renderer->store));
     use_wind(shot, program);
     use_shadow(shot, program);

@@ -139,7 +139,7 @@ static const char studio_surface_vertex[] =
     "vec3 normal_here(vec3 v) {\n"                                                                 \
     "    vec3 n = normalize(facing), p1 = dFdx(at), p2 = dFdy(at); vec2 t1 = dFdx(tile), t2 = "    \
     "dFdy(tile);\n"                                                                                \
-    "    if (has_bumps) {\n"                                                                       \
+    "    if (has_bumps && !is_wire) {\n"                                                           \
     "        float area = t1.x * t2.y - t2.x * t1.y;\n"                                            \
     "        vec3 u = (p1 * t2.y - p2 * t1.y) * sign(area); u -= n * dot(n, u);\n"                 \
     "        float size = dot(u, u);\n"                                                            \
@@ -150,7 +150,8 @@ static const char studio_surface_vertex[] =
     "        }\n"                                                                                  \
     "    }\n"                                                                                      \
     "    vec3 side = cross(p1, p2); side = dot(side, v) < 0.0 ? -side : side;\n"                   \
-    "    if (is_blade ? dot(n, side) < 0.0 : !gl_FrontFacing) n = -n;\n"                           \
+    "    if (is_wire ? dot(n, v) < 0.0 : is_blade ? dot(n, side) < 0.0 : !gl_FrontFacing) n = "    \
+    "-n;\n"                                                                                        \
     "    float below = 0.02 - dot(n, v);\n"                                                        \
     "    return below > 0.0 ? normalize(n + v * below) : n;\n"                                     \
     "}\n"
@@ -159,7 +160,7 @@ static const char studio_surface_fragment[] =
     "#version 330 core\n"
     "in vec3 at; in vec3 facing; in vec2 tile;\n"
     "uniform vec3 tint; uniform float cutoff, translucency, roughness, relief, mirror;\n"
-    "uniform bool has_picture, has_bumps, has_gloss, is_blade;\n"
+    "uniform bool has_picture, has_bumps, has_gloss, is_blade, is_wire;\n"
     "uniform sampler2D picture, bumps, gloss;\n"
     "uniform sampler2DShadow shadow; uniform mat4 to_shadow; uniform bool has_shadow;\n"
     "const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);\n"
