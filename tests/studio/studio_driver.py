@@ -107,9 +107,13 @@ class Studio:
 
     def ask(self, command):
         """Sends a command and returns its answer; an error is an exception."""
-        self.program.stdin.write(command + "\n")
-        self.program.stdin.flush()
-        answer = self.program.stdout.readline().strip()
+        for _ in range(30):
+            self.program.stdin.write(command + "\n")
+            self.program.stdin.flush()
+            answer = self.program.stdout.readline().strip()
+            if answer != "error no picture":
+                break
+            time.sleep(0.1)  # the window is about to be laid out anew
         if answer == "" or answer.startswith("error"):
             raise AssertionError(f"'{command}' was answered with '{answer}'{self.last_words()}")
         return answer
