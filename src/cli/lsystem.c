@@ -154,7 +154,10 @@ FrStatus cli_lsystem_apply(CliSession *session, FrDocument *document) {
         status = set_all(session, document, "view", path);
         g_free(path);
     }
-    bool is_for_them = has_lsystem(document) || !cli_growth_takes_steps(document);
+    // Beside plants that grow bud by bud L-systems are as long as they say: they only stop earlier,
+    // so that a growth can be resumed with more steps.
+    bool is_for_them = !cli_growth_takes_steps(document) ||
+                       (session->verb->id == CLI_DERIVE && has_lsystem(document));
     if (options->steps >= 0 && status == FR_OK && is_for_them) {
         status = cli_lsystem_set_steps(session, document, options->steps);
     }

@@ -365,17 +365,23 @@ static FrStatus build_all(Build *build) {
     return status;
 }
 
+/// Steps after which all that grows by steps stops, as is asked for and by the clock.
+static uint64_t steps_at_most(const FrDocument *document, const FrSceneHow *how) {
+    uint64_t asked = how->options.steps < 0 ? UINT64_MAX : (uint64_t)how->options.steps;
+    return how->is_check ? 0 : MIN(asked, steps_at(document, how->options.time));
+}
+
+/// Steps of growth bud by bud: without being asked, as many as the document says.
 static uint64_t steps_of(const FrDocument *document, const FrSceneHow *how) {
-    uint64_t steps = how->options.steps < 0 ? (uint64_t)fr_document_growth(document)->params.steps
-                                            : (uint64_t)how->options.steps;
-    return how->is_check ? 0 : MIN(steps, steps_at(document, how->options.time));
+    uint64_t said = (uint64_t)fr_document_growth(document)->params.steps;
+    uint64_t most = steps_at_most(document, how);
+    return how->options.steps < 0 ? MIN(said, most) : most;
 }
 
 FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow *how, const FrContext *context,
                         FrSimulation *simulation) {
     const FrSceneOptions *options = &how->options;
     FrScene *scene = new_scene(document, options->seed);
-    uint64_t derived = how->is_check ? 0 : steps_at(document, options->time);
     Build build = {.document = document,
                    .context = context,
                    .scene = scene,
@@ -383,7 +389,7 @@ FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow *how, const
                    .varied = g_hash_table_new_full(NULL, NULL, NULL, free_varied),
                    .seed = options->seed,
                    .time = options->time,
-                   .growing = fr_growing_new(derived, how->watch),
+                   .growing = fr_growing_new(steps_at_most(document, how), how->watch),
                    .parts = how->parts,
                    .sampled = fr_sampled_new(),
                    .definitions = g_ptr_array_new(),

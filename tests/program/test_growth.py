@@ -92,6 +92,28 @@ def killed_among(folder):
         tap.run("build", document, "-q", "--resume", broken, status=1)
 
 
+def resumed_among(folder):
+    """Among plants that grow bud by bud --steps changes no L-system but stops it, so a growth in which
+    some stand or grow goes on with other steps."""
+    document, saved = folder / "stopped.frond", folder / "stopped"
+    bush = """<plant id="b"><lsystem steps="3" unit="0.05"><![CDATA[w : F\nq : F -> F[+(40)F]F]]></lsystem></plant>
+  <scene>"""
+    stands = '<place plant="t"/>\n    <place plant="b" at="3, 0, 0"/>'
+    document.write_text(MIXED.replace("<scene>", bush).replace('<place plant="t"/>', stands))
+    whole = tap.statistics(document)
+    assert tap.statistics(document, "--steps", 40)["digest"] == whole["digest"]
+    for steps in (4, 9, 23):
+        resume = ("--resume", saved) if saved.exists() else ()
+        tap.run("build", document, "-q", "--steps", steps, "--checkpoint", saved, *resume)
+    resumed = tap.statistics(document, "--resume", saved)
+    assert (resumed["digest"], resumed["by_production"]) == (whole["digest"], whole["by_production"])
+    young = tap.statistics(document, "--steps", 4)
+    assert young["by_production"]["q"] == whole["by_production"]["q"] > 20, young["by_production"]
+    assert young["by_production"]["p1"] < whole["by_production"]["p1"], young["by_production"]
+    strings = [tap.run("derive", document, "--plant", "b", "--steps", n).stdout for n in (1, 2)]
+    assert len(strings[0]) < len(strings[1])
+
+
 def refused(folder):
     saved = folder / "saved"
     tap.run("build", PARTS, "-q", "--steps", 3, "--checkpoint", saved)
@@ -201,6 +223,7 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
           resumed_at_every_step),
          ("/program/growth/a run that is killed loses a step at most", killed),
          ("/program/growth/so does one in which L-systems grow too", killed_among),
+         ("/program/growth/and is resumed with more steps, whatever L-systems stand in it", resumed_among),
          ("/program/growth/checkpoints of other documents, seeds and versions are refused", refused),
          ("/program/growth/damaged checkpoints are refused", damaged),
          ("/program/growth/frames show the steps", frames),
