@@ -3,6 +3,7 @@
 // since a machine is seldom idle.
 #include "bench.h"
 #include "frond/growth.h"
+#include "frond/simulation.h"
 
 #include <math.h>
 
@@ -57,57 +58,24 @@ static void end(World *world) {
 
 // ---- a forest along a road --------------------------------------------------------------------
 
-static void set_order(FrSpecies *species, int64_t tier, int64_t life, double angle) {
-    FrOrderParams *order = &species->orders[species->order_count++];
-    fr_params_init(fr_order_table(), order);
-    order->tier = tier;
-    order->life = life;
-    order->angle = angle * G_PI / 180;
-}
-
-/// The clearance of a road: a box of 6 × 4 m all along it.
-static FrGrowthObstacle road(vec3s *corners) {
-    static const uint32_t indices[] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
-                                       2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
-    for (int i = 0; i < 8; i++) {
-        corners[i] = (vec3s){{i & 1 ? 3 : -3, i & 2 ? 90 : -90, i & 4 ? 4 : 0.2f}};
-    }
-    return (FrGrowthObstacle){.positions = corners,
-                              .vertex_count = 8,
-                              .indices = indices,
-                              .index_count = G_N_ELEMENTS(indices)};
-}
-
-/// 140 trees, 14 steps, a grid of 1024³ over 200 m, with sky, collision, particles and shedding.
+/// The steps of examples/forest-road.frond, with collision, sky, particles and shedding.
 static void bench_forest(int threads) {
-    World world = new_world(threads);
-    FrSpeciesParams *params = &world.species.params;
-    params->step = 1;
-    params->dormancy = 0;
-    params->auxin_reach = 0;
-    params->trials = 2;
-    params->leaf_life = 5;
-    params->foliage = 0.2;
-    params->influence = 6;
-    params->kill = 2;
-    params->max_order = 4;
-    set_order(&world.species, 3, 0, 50);
-    set_order(&world.species, 3, 0, 50);
-    set_order(&world.species, 3, 3, 45);
-    set_order(&world.species, 3, 2, 45);
-    set_order(&world.species, 1, 1, 45);
-    set_order(&world.species, 0, 1, 45);
-    vec3s corners[8];
-    FrGrowthObstacle clearance = road(corners);
-    world.setup.obstacles = &clearance;
-    world.setup.obstacle_count = 1;
-    world.setup.params.cell = 200.0 / 1024;
-    world.setup.params.particles = 20000;
-    start_clock(&world);
-    sow(&world, 10, 14, 13.5);
-    step(&world, 14);
-    double seconds = bench_now() - world.begin, processor = bench_processor() - world.processor;
-    FrGrowthStats stats = fr_growth_stats(world.growth);
+    FrContext context = fr_context_default();
+    context.pool = fr_pool_new(threads);
+    FrDocument *document;
+    FrSimulation *forest;
+    FrStatus status = fr_document_load(BENCH_EXAMPLES "/forest-road.frond", &context, &document);
+    FR_ASSERT(status == FR_OK);
+    status = fr_simulation_new(document, -1, 0, &context, &forest);
+    FR_ASSERT(status == FR_OK);
+    double began = bench_now(), processor = bench_processor();
+    for (uint64_t i = 0; i < fr_simulation_step_count(forest); i++) {
+        status = fr_simulation_step(forest, &context);
+        FR_ASSERT(status == FR_OK);
+    }
+    double seconds = bench_now() - began;
+    processor = bench_processor() - processor;
+    FrGrowthStats stats = fr_simulation_stats(forest);
     bench_tell(
         "growth.forest", (double)stats.nodes / seconds, 0, "nodes/s",
         "%d thread(s): %.2f s, %.2f s of processor; %" G_GUINT64_FORMAT
@@ -115,7 +83,9 @@ static void bench_forest(int threads) {
         " leaves, %" G_GUINT64_FORMAT " growing buds; %.0f bytes an internode, %.0f MB of cells",
         threads, seconds, processor, stats.plants, stats.axes, stats.nodes, stats.leaves,
         stats.active_buds, (double)stats.bytes / (double)stats.nodes, (double)stats.cells / 1e6);
-    end(&world);
+    fr_simulation_free(forest);
+    fr_document_free(document);
+    fr_pool_free(context.pool);
 }
 
 // ---- self-organizing trees --------------------------------------------------------------------
