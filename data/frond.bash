@@ -15,9 +15,9 @@ _frond() {
     esac
     case $verb in
     '') mapfile -t COMPREPLY < <(compgen -W "$verbs --help --version" -- "$current") && return ;;
-    build) making+=' --leaves --steps --checkpoint --resume' ;;
+    build) making+=' --leaves --steps --checkpoint --resume --only --in-place' ;;
     vary) making+=' --leaves --count --plant --size --samples' ;;
-    render) making+=' --size --samples --camera --frames --steps --checkpoint --resume' ;;
+    render) making+=' --size --samples --camera --frames --steps --checkpoint --resume --only --in-place' ;;
     check) making=$reading ;;
     info) making="--json $reading" ;;
     presets) making='--json --help' ;;

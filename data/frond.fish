@@ -24,6 +24,8 @@ complete -c frond -n "__fish_seen_subcommand_from $making" -l lod -x -a '0 1 2 3
 complete -c frond -n "__fish_seen_subcommand_from build vary" -l leaves -x -a 'merged nodes gpu' -d 'how leaves are written'
 complete -c frond -n "__fish_seen_subcommand_from render vary" -l size -x -d 'WIDTHxHEIGHT'
 complete -c frond -n "__fish_seen_subcommand_from render vary" -l samples -x -d 'paths per pixel'
+complete -c frond -n "__fish_seen_subcommand_from build render" -l only -x -d 'show only the plants called so'
+complete -c frond -n "__fish_seen_subcommand_from build render" -l in-place -d 'they stay where they stand'
 complete -c frond -n "__fish_seen_subcommand_from render" -l camera -x -d 'view of that name'
 complete -c frond -n "__fish_seen_subcommand_from $reading" -l set -x -d 'PATH=VALUE'
 complete -c frond -n "__fish_seen_subcommand_from $reading" -l seed -x -d 'seed of all plants'

@@ -1,6 +1,6 @@
 #compdef frond
 # Completion of frond(1) for zsh.
-local -a verbs reading making
+local -a verbs reading making only
 verbs=(
     'build:grow what a document says and write it as a model'
     'render:make a picture of it'
@@ -29,6 +29,10 @@ making=(
     '--lod[level of detail]:level:(0 1 2 3 4 5 6 7 8)'
     '--stats[write statistics]:file:_files'
 )
+only=(
+    '*--only[show only the plants called so]:name: '
+    '--in-place[they stay where they stand]'
+)
 if (( CURRENT == 2 )); then
     _describe verb verbs
     return
@@ -37,8 +41,8 @@ local verb=$words[2]
 shift words
 (( CURRENT-- ))
 case $verb in
-    build) _arguments $making $reading '--leaves[how leaves are written]:mode:(merged nodes gpu)' ;;
-    render) _arguments $making $reading '--size[of the picture]:WIDTHxHEIGHT: ' \
+    build) _arguments $making $reading $only '--leaves[how leaves are written]:mode:(merged nodes gpu)' ;;
+    render) _arguments $making $reading $only '--size[of the picture]:WIDTHxHEIGHT: ' \
         '--samples[paths per pixel]:samples: ' '--camera[view]:name: ' ;;
     vary) _arguments $making $reading '--count[instances]:count: ' '--plant[of the document]:id: ' \
         '--size[of each picture]:WIDTHxHEIGHT: ' '--samples[paths per pixel]:samples: ' ;;

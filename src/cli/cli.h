@@ -28,6 +28,8 @@ typedef struct CliOptions {
     GPtrArray *files;   ///< char *, what stands without an option
     GPtrArray *outputs; ///< char *, of -o
     GPtrArray *sets;    ///< char *, "path=value"
+    GPtrArray *only;    ///< char *, what of the scene is wanted; empty: all
+    bool in_place;      ///< that stays where it stands
     int64_t seed;       ///< < 0: as the document says
     bool has_light;     ///< a picture of the light is wanted
     int light_axis;     ///< of a slice of light: 0, 1, 2 are x, y, z; < 0: points

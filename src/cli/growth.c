@@ -1,6 +1,7 @@
 /// Scenes built from the command line, with the files that a growth is saved to and resumed from.
 #include "cli/cli.h"
 
+#include "frond/only.h"
 #include "frond/simulation.h"
 
 bool cli_growth_takes_steps(const FrDocument *document) {
@@ -62,8 +63,8 @@ static FrStatus after_step(void *data, const FrSimulation *simulation, const FrC
                                                 : write_checkpoint(session, simulation, context);
 }
 
-FrStatus cli_session_grow(CliSession *session, const FrDocument *document, double time,
-                          FrScene **scene) {
+static FrStatus grow_all(CliSession *session, const FrDocument *document, double time,
+                         FrScene **scene) {
     const CliOptions *options = session->options;
     *scene = NULL;
     g_array_set_size(session->stands, 0);
@@ -101,5 +102,26 @@ FrStatus cli_session_grow(CliSession *session, const FrDocument *document, doubl
         fr_source_unref(named);
     }
     g_free(saved);
+    return status;
+}
+
+FrStatus cli_session_grow(CliSession *session, const FrDocument *document, double time,
+                          FrScene **scene) {
+    const GPtrArray *names = session->options->only;
+    if (names->len == 0) {
+        return grow_all(session, document, time, scene);
+    }
+    *scene = NULL;
+    FrOnly *only; // a wrong name is told before anything grows
+    FrStatus status = fr_only_new(document, (const char *const *)names->pdata, names->len,
+                                  &session->context, &only);
+    if (status == FR_OK) {
+        status = grow_all(session, document, time, scene);
+    }
+    if (status == FR_OK) {
+        bool is_there = fr_only_apply(only, *scene, session->options->in_place);
+        FR_ASSERT(is_there);
+    }
+    fr_only_free(only);
     return status;
 }

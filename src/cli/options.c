@@ -128,6 +128,16 @@ static bool take_set(CliOptions *options, const char *value) {
     return true;
 }
 
+static bool take_only(CliOptions *options, const char *value) {
+    g_ptr_array_add(options->only, g_strdup(value));
+    return true;
+}
+
+static bool take_in_place(CliOptions *options, const char *value) {
+    (void)value;
+    return options->in_place = true;
+}
+
 static bool take_output(CliOptions *options, const char *value) {
     g_ptr_array_add(options->outputs, g_strdup(value));
     return true;
@@ -292,6 +302,10 @@ static const OptionRow rows[] = {
     {"steps", 0, "N", READING, "steps of an L-system, and of growth bud by bud", take_steps},
     {"checkpoint", 0, "FILE", CLI_BUILD | CLI_RENDER,
      "write what has grown bud by bud to FILE after every step", take_checkpoint},
+    {"only", 0, "NAME", CLI_BUILD | CLI_RENDER,
+     "grow all, show of it only what is called so: oak, place-2, row.3", take_only},
+    {"in-place", 0, NULL, CLI_BUILD | CLI_RENDER,
+     "what --only shows stays where it stands, else it is moved to the origin", take_in_place},
     {"resume", 0, "FILE", CLI_BUILD | CLI_RENDER, "go on from such a FILE", take_resume},
     {"view", 0, "FILE", READING, "the view (.v) of an L-system", take_view},
     {"print", 0, "WHAT", CLI_DERIVE, "string (default), count, or steps: counts of each",
@@ -333,6 +347,7 @@ CliOptions cli_options_new(void) {
     return (CliOptions){.files = g_ptr_array_new_with_free_func(g_free),
                         .outputs = g_ptr_array_new_with_free_func(g_free),
                         .sets = g_ptr_array_new_with_free_func(g_free),
+                        .only = g_ptr_array_new_with_free_func(g_free),
                         .seed = -1,
                         .time = NAN,
                         .steps = -1,
@@ -344,6 +359,7 @@ void cli_options_clear(CliOptions *options) {
     g_ptr_array_unref(options->files);
     g_ptr_array_unref(options->outputs);
     g_ptr_array_unref(options->sets);
+    g_ptr_array_unref(options->only);
     g_ptr_array_unref(options->nurbs);
     g_free(options->camera);
     g_free(options->stats);
