@@ -203,6 +203,34 @@ def told_at_places(folder):
         assert "wrong.frond:6:6: warning: 2 of 3" in said and "[seed-place]" in said, said
 
 
+def too_wide(folder):
+    """Small plants in a wide arena, whose cells are wide too, are told before they fail to grow."""
+    document = folder / "wide.frond"
+    document.write_text("""<frond version="1">
+  <plant id="oak"><species/></plant>
+  <plant id="herb"><species step="0.12"/></plant>
+  <scene>
+    <growth steps="12"/>
+    <place plant="oak" at="9, 0, 0"/>
+    <place plant="herb"/>
+  </scene>
+</frond>
+""")
+    for command in ("build", "check"):
+        said = tap.run(command, document).stderr
+        assert said.count("[wide-cells]") == 1 and "'herb' may hardly grow" in said, said
+        assert "wide.frond:5:6: warning" in said and "make the arena smaller" in said, said
+    for example in sorted((tap.SOURCE / "examples").glob("*.frond")):
+        if "<species" in example.read_text(encoding="utf-8"):
+            assert "wide-cells" not in tap.run("check", example).stderr, example
+    near = document.read_text().replace("/>\n    <place", ' min="-4, -4, 0" max="13, 4, 9"/>\n    <place', 1)
+    document.write_text(near)
+    assert tap.run("check", document).stderr == ""
+    given = document.read_text().replace("<growth", '<growth cell="0.3"')
+    document.write_text(given)
+    assert "make `cell` smaller" in tap.run("check", document).stderr
+
+
 def checked_soon(folder):
     """What is wrong with a growth is said without growing it."""
     began = time.monotonic()
@@ -231,6 +259,7 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
          ("/program/growth/the living and their wood are counted", thinning),
          ("/program/growth/a state with more steps than asked for is told", resumed_later),
          ("/program/growth/seeds that cannot grow are told at their places", told_at_places),
+         ("/program/growth/cells that are too wide for a species are told", too_wide),
          ("/program/growth/checking does not grow", checked_soon)]
 
 if __name__ == "__main__":
