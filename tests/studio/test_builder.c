@@ -169,6 +169,36 @@ static void test_ahead(Fixture *fixture, gconstpointer data) {
     studio_document_free(document);
 }
 
+static void test_stands(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    static const char text[] =
+        "<frond version='1'><plant id='tree'><pgraph>"
+        "<tree id='trunk' length='6' radius='0.2' gnarl='30' number='60'/>"
+        "<tree id='limb' length='2' radius='0.06..0.02' gnarl='30' number='9'/>"
+        "<tree id='twig' length='0.5' radius='0.01'/><link from='trunk' to='limb' kind='branch'/>"
+        "<link from='limb' to='twig' kind='branch'/></pgraph></plant>"
+        "<scene><row plants='tree' spacing='1'>0,0,0 %d,0,0</row></scene></frond>";
+    uint64_t indices[2];
+    for (int i = 0; i < 2; i++) {
+        char *some = g_strdup_printf(text, i == 0 ? 40 : 400);
+        StudioDocument *document = studio_document_new(some, strlen(some), "row", NULL);
+        request(fixture, document, NAN);
+        const StudioView *view = await(fixture)->view;
+        indices[i] = 0;
+        for (guint s = 0; s < view->scene->stands->len; s++) {
+            uint32_t plant = g_array_index(view->scene->stands, FrStand, s).plant;
+            const StudioPlant *seen = g_ptr_array_index(view->plants, plant);
+            g_assert_nonnull(seen->coarse_wood);
+            g_assert_cmpuint(seen->coarse_wood->index_count, >, 0);
+            indices[i] += seen->coarse_wood->index_count;
+        }
+        studio_document_free(document);
+        g_free(some);
+    }
+    g_assert_cmpuint(indices[0], >, 3 * 500);
+    g_assert_cmpuint(indices[1], <, 3 * 60000);
+}
+
 static void test_surfaces(Fixture *fixture, gconstpointer data) {
     (void)data;
     StudioDocument *document = open_example("examples/nurbs/star.frond");
@@ -376,6 +406,8 @@ int main(int argc, char **argv) {
         test_forget);
     ADD("/studio/builder/a document becomes a view with counts", test_builds);
     ADD("/studio/builder/the first leaves of a batch are spread over all", test_leaves);
+    ADD("/studio/builder/many plants that stand share what is drawn while the view moves",
+        test_stands);
     ADD("/studio/builder/plants with surfaces are shown as surfaces", test_surfaces);
     ADD("/studio/builder/the skeleton of what takes long is there before it, if it is another",
         test_ahead);

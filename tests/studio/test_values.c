@@ -108,6 +108,29 @@ static void test_camera(void) {
     g_assert_cmpfloat(camera.elevation, <, 0.5 * G_PI);
 }
 
+static void test_floor(void) {
+    StudioCamera camera = studio_camera_default();
+    camera.target[2] = 8;
+    camera.distance = 20;
+    camera.elevation = -0.2; // from below: the eye is at 4
+    double eye[3], last = 5;
+    for (int i = 0; i < 40; i++) {
+        studio_camera_zoom(&camera, 1.12);
+        studio_camera_eye(&camera, eye);
+        g_assert_cmpfloat(eye[2], >=, -1e-9);
+        g_assert_cmpfloat(eye[2], <=, fmax(last, 0.021 * camera.distance));
+        last = eye[2];
+    }
+    // Nearer it goes straight; and who is below the floor stays there.
+    double elevation = camera.elevation;
+    studio_camera_zoom(&camera, 0.1);
+    g_assert_cmpfloat(camera.elevation, ==, elevation);
+    camera.elevation = -1;
+    camera.distance = 20;
+    studio_camera_zoom(&camera, 2);
+    g_assert_cmpfloat(camera.elevation, ==, -1);
+}
+
 static void test_settings(void) {
     char *folder = g_dir_make_tmp("studio-XXXXXX", NULL);
     char *file = g_build_filename(folder, "deep", "studio.ini", NULL);
@@ -194,6 +217,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/values/sliders hold every value within its range", test_ranges);
     g_test_add_func("/studio/values/points are added, moved and kept in order", test_points);
     g_test_add_func("/studio/values/a framed box is within the picture", test_camera);
+    g_test_add_func("/studio/values/who goes away from plants stays above the floor", test_floor);
     g_test_add_func("/studio/values/settings are remembered", test_settings);
     g_test_add_func("/studio/values/places find their elements again", test_places);
     g_test_add_func("/studio/values/every profile writes a model", test_export);

@@ -125,8 +125,9 @@ static void shade(StudioBuilder *builder, StudioView *view, const FrContext *con
 // Takes a new view; large ones get what is drawn while they move, taken over where no wood changed.
 static void adopt_view(StudioBuilder *builder, StudioView *view, const FrContext *context) {
     StudioView *old = builder->view;
+    bool is_alike = old != NULL && old->coarse_nodes == view->coarse_nodes;
     shade(builder, view, context);
-    for (guint i = 0; old != NULL && i < MIN(old->plants->len, view->plants->len); i++) {
+    for (guint i = 0; is_alike && i < MIN(old->plants->len, view->plants->len); i++) {
         StudioPlant *from = g_ptr_array_index(old->plants, i);
         StudioPlant *to = g_ptr_array_index(view->plants, i);
         if (from->wood == to->wood && is_same_wood(to->wood)) {

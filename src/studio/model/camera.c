@@ -6,6 +6,7 @@
 
 static const double highest = 89.0 * G_PI / 180.0;
 static const double nearest = 0.001, farthest = 100000.0;
+static const double least_height = 0.02; // of the eye above the floor, in parts of the distance
 
 StudioCamera studio_camera_default(void) {
     return (StudioCamera){.target = {0, 0, 0.5},
@@ -76,7 +77,14 @@ void studio_camera_pan(StudioCamera *camera, double right, double up) {
 }
 
 void studio_camera_zoom(StudioCamera *camera, double factor) {
+    double before[3], after[3];
+    studio_camera_eye(camera, before);
     camera->distance = CLAMP(camera->distance * factor, nearest, farthest);
+    studio_camera_eye(camera, after);
+    double least = fmin(before[2], least_height * camera->distance);
+    if (factor > 1 && before[2] >= 0 && after[2] < least) {
+        camera->elevation = asin(CLAMP((least - camera->target[2]) / camera->distance, -1, 1));
+    }
 }
 
 void studio_camera_eye(const StudioCamera *camera, double eye[3]) {

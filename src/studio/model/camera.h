@@ -25,7 +25,8 @@ void studio_camera_see(StudioCamera *camera, const FrViewParams *view, const dou
 void studio_camera_orbit(StudioCamera *camera, double azimuth, double elevation);
 /// Moves target and camera by parts of the picture's height.
 void studio_camera_pan(StudioCamera *camera, double right, double up);
-/// Multiplies the distance; it stays between a millimetre and 100 km.
+/// Multiplies the distance; it stays between a millimetre and 100 km. A camera that goes away above
+/// the floor stays above it: it rises where its way back would lead below.
 void studio_camera_zoom(StudioCamera *camera, double factor);
 /// Where the camera stands.
 void studio_camera_eye(const StudioCamera *camera, double eye[3]);

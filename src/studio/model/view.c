@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { COARSE_LEVEL = 4, COARSE_SIDES = 8, COARSE_NODES = 10000 };
+enum { COARSE_LEVEL = 4, COARSE_SIDES = 8, COARSE_NODES = 10000, LEAST_COARSE_NODES = 32 };
 
 // ---- leaves ------------------------------------------------------------------------------------
 
@@ -248,10 +248,21 @@ static StudioPlant *plant_new(const FrScenePlant *built, const FrSkin *wood,
     return view;
 }
 
+// All that stand share COARSE_NODES. Shares are halved at powers of two only: one plant more seldom
+// changes what is made of the others.
+static uint32_t share_of_coarse(const FrScene *scene) {
+    uint32_t share = COARSE_NODES;
+    for (uint64_t stands = 1; stands < scene->stands->len; stands *= 2) {
+        share /= 2;
+    }
+    return MAX(share, LEAST_COARSE_NODES);
+}
+
 StudioView *studio_view_of(const FrScene *scene, const FrSkin *const *skins,
                            const FrContext *context) {
     StudioView *view = g_new0(StudioView, 1);
     view->scene = scene;
+    view->coarse_nodes = share_of_coarse(scene);
     view->plants = g_ptr_array_new_with_free_func(plant_free);
     for (guint i = 0; i < scene->plants->len; i++) {
         const FrScenePlant *built = &g_array_index(scene->plants, FrScenePlant, i);
@@ -271,9 +282,9 @@ StudioView *studio_view_new(const FrRebuild *rebuild, const FrContext *context) 
     return view;
 }
 
-// The plant without organs and thin axes: the thickest are kept, of at most COARSE_NODES
+// The plant without organs and thin axes: the thickest are kept, of at most `most`
 // internodes. It shares all columns but `flags`.
-static FrPlant thinned(const FrPlant *plant, uint16_t *flags) {
+static FrPlant thinned(const FrPlant *plant, uint32_t most, uint16_t *flags) {
     FrPlant thin = *plant;
     uint32_t *counts = g_new0(uint32_t, plant->axes.count + 1);
     float radius = 0, step = 0;
@@ -289,10 +300,10 @@ static FrPlant thinned(const FrPlant *plant, uint16_t *flags) {
         for (uint32_t i = 0; i < plant->axes.count; i++) {
             kept += plant->axes.base_radius[i] >= radius + step ? counts[i] : 0;
         }
-        radius += kept > COARSE_NODES ? step : 0;
+        radius += kept > most ? step : 0;
     }
     for (uint32_t i = 0; i < plant->axes.count; i++) {
-        bool is_thin = plant->nodes.count > COARSE_NODES && plant->axes.base_radius[i] <= radius;
+        bool is_thin = plant->nodes.count > most && plant->axes.base_radius[i] <= radius;
         flags[i] = (uint16_t)(plant->axes.flags[i] | (is_thin ? FR_HIDDEN : 0));
     }
     g_free(counts);
@@ -316,7 +327,7 @@ void studio_view_add_coarse(StudioView *view, const FrContext *context) {
             continue; // taken over, or not drawn
         }
         uint16_t *flags = g_new(uint16_t, plant->plant->axes.count + 1);
-        FrPlant thin = thinned(plant->plant, flags);
+        FrPlant thin = thinned(plant->plant, view->coarse_nodes, flags);
         FrStatus status = fr_skin_plant(&thin, &params, FR_UP_Z, context, &plant->coarse_wood);
         plant->coarse_wood = status == FR_OK ? plant->coarse_wood : NULL;
         g_free(flags);
@@ -325,8 +336,10 @@ void studio_view_add_coarse(StudioView *view, const FrContext *context) {
 
 uint64_t studio_view_nodes(const StudioView *view) {
     uint64_t nodes = 0;
-    for (guint p = 0; p < view->plants->len; p++) {
-        nodes += ((const StudioPlant *)g_ptr_array_index(view->plants, p))->plant->nodes.count;
+    for (guint i = 0; i < view->scene->stands->len; i++) {
+        uint32_t index = g_array_index(view->scene->stands, FrStand, i).plant;
+        const StudioPlant *plant = g_ptr_array_index(view->plants, index);
+        nodes += plant->plant->nodes.count;
     }
     return nodes;
 }

@@ -54,9 +54,10 @@ typedef struct StudioPlant {
 } StudioPlant;
 
 typedef struct StudioView {
-    const FrScene *scene; ///< borrowed
-    GPtrArray *plants;    ///< StudioPlant *, as many as the scene has
-    FrShading shading;    ///< the light that it is shown in; set by who shows it
+    const FrScene *scene;  ///< borrowed
+    GPtrArray *plants;     ///< StudioPlant *, as many as the scene has
+    uint32_t coarse_nodes; ///< internodes that the coarse wood of a plant may have
+    FrShading shading;     ///< the light that it is shown in; set by who shows it
 } StudioView;
 
 /// All but coarse_wood, of what a rebuild holds; borrowed from it until its next update.
@@ -64,7 +65,7 @@ StudioView *studio_view_new(const FrRebuild *rebuild, const FrContext *context);
 /// The same of any scene, with the skin of each of its plants.
 StudioView *studio_view_of(const FrScene *scene, const FrSkin *const *skins,
                            const FrContext *context);
-/// How many internodes its plants have together.
+/// How many internodes stand in it.
 uint64_t studio_view_nodes(const StudioView *view);
 /// Makes the coarse wood where there is none yet.
 void studio_view_add_coarse(StudioView *view, const FrContext *context);

@@ -15,7 +15,9 @@ enum {
     LEAST_BUDGET = 8000,
     MOST_BUDGET = 4000000,
     SLICE_TRIANGLES = 12000,
-    SAMPLES = 2, // of the fine picture, a side of a pixel of the desktop
+    PIECE_COST = 500,         // of a piece by itself, in triangles
+    WIRE_TRIANGLES = 1000000, // from which on a wireframe is a coarse one
+    SAMPLES = 2,              // of the fine picture, a side of a pixel of the desktop
 };
 
 static const double slice_seconds = 0.022; // of the fine picture, between two frames
@@ -256,7 +258,8 @@ static void draw_coarse(StudioRenderer *renderer, Shot *shot, const StudioCamera
     if (shot->display->mode == STUDIO_SKELETON) {
         draw_skeletons(shot);
     } else {
-        GArray *list = studio_store_list_coarse(renderer->store, (uint64_t)renderer->budget);
+        GArray *list =
+            studio_store_list_coarse(renderer->store, (uint64_t)renderer->budget, UINT32_MAX);
         GLuint program = begin_surfaces(shot);
         for (guint i = 0; i < list->len; i++) {
             const StudioPiece *piece = &g_array_index(list, StudioPiece, i);
@@ -314,15 +317,23 @@ static void begin_shadow(StudioRenderer *renderer) {
     glClear(GL_DEPTH_BUFFER_BIT);
     renderer->has_shadow_map = false;
     begin_stage(renderer, STAGE_SHADOW,
-                studio_store_list_coarse(renderer->store, SHADOW_TRIANGLES));
+                studio_store_list_coarse(renderer->store, SHADOW_TRIANGLES, SLICE_TRIANGLES));
+}
+
+// Lines of more triangles would fill the picture: then those of the coarse scene are drawn.
+static GArray *list_fine(const StudioRenderer *renderer, StudioMode mode) {
+    if (mode == STUDIO_SKELETON) {
+        return g_array_new(FALSE, FALSE, sizeof(StudioPiece));
+    }
+    bool is_dense = studio_store_amount(renderer->store).triangles > WIRE_TRIANGLES;
+    return mode == STUDIO_WIREFRAME && is_dense
+               ? studio_store_list_coarse(renderer->store, WIRE_TRIANGLES, SLICE_TRIANGLES)
+               : studio_store_list_fine(renderer->store, SLICE_TRIANGLES);
 }
 
 static void begin_fine(StudioRenderer *renderer, const Shot *shot, const StudioCamera *camera) {
     begin_picture(shot, &renderer->fine, camera);
-    begin_stage(renderer, STAGE_FINE,
-                shot->display->mode == STUDIO_SKELETON
-                    ? g_array_new(FALSE, FALSE, sizeof(StudioPiece))
-                    : studio_store_list_fine(renderer->store, SLICE_TRIANGLES));
+    begin_stage(renderer, STAGE_FINE, list_fine(renderer, shot->display->mode));
 }
 
 static void end_fine(StudioRenderer *renderer, Shot *shot) {
@@ -350,9 +361,15 @@ static bool draw_slices(StudioRenderer *renderer, const Shot *shot, double until
     } else {
         program = begin_surfaces(shot);
     }
+    uint64_t waiting = 0; // triangles; small pieces are waited for together
     while (renderer->next < renderer->slices->len) {
-        studio_piece_draw(program, &g_array_index(renderer->slices, StudioPiece, renderer->next++),
-                          !is_shadow);
+        const StudioPiece *piece = &g_array_index(renderer->slices, StudioPiece, renderer->next++);
+        studio_piece_draw(program, piece, !is_shadow);
+        waiting += piece->triangles + PIECE_COST;
+        if (waiting < SLICE_TRIANGLES) {
+            continue;
+        }
+        waiting = 0;
         glFinish();
         if (now() >= until) {
             break;

@@ -452,7 +452,7 @@ static uint64_t coarse_wood_triangles(const StudioStore *store) {
     return sum;
 }
 
-GArray *studio_store_list_coarse(const StudioStore *store, uint64_t budget) {
+GArray *studio_store_list_coarse(const StudioStore *store, uint64_t budget, uint64_t most) {
     GArray *list = new_list();
     uint64_t leaves = coarse_leaf_triangles(store);
     double left = fmax(0.4 * (double)budget, (double)budget - (double)coarse_wood_triangles(store));
@@ -460,9 +460,9 @@ GArray *studio_store_list_coarse(const StudioStore *store, uint64_t budget) {
     for (guint i = 0; i < store->stands->len; i++) {
         const Stand *stand = &g_array_index(store->stands, Stand, i);
         const Plant *plant = plant_of(store, stand);
-        list_parts(store, stand, plant, coarse_wood_of(plant), UINT32_MAX, list);
-        list_parts(store, stand, plant, plant->foliage, UINT32_MAX, list);
-        list_leaves(store, stand, plant, true, part, UINT32_MAX, list);
+        list_parts(store, stand, plant, coarse_wood_of(plant), most, list);
+        list_parts(store, stand, plant, plant->foliage, most, list);
+        list_leaves(store, stand, plant, true, part, most, list);
     }
     return list;
 }

@@ -53,8 +53,9 @@ const FrShading *studio_store_shading(const StudioStore *store);
 
 /// All there is, in pieces of at most `most` triangles (StudioPiece).
 GArray *studio_store_list_fine(const StudioStore *store, uint64_t most);
-/// At most about `budget` triangles: coarse wood, coarse leaves, and fewer of them, each larger.
-GArray *studio_store_list_coarse(const StudioStore *store, uint64_t budget);
+/// At most about `budget` triangles: coarse wood, coarse leaves, and fewer of them, each larger. In
+/// pieces of at most `most` triangles.
+GArray *studio_store_list_coarse(const StudioStore *store, uint64_t budget, uint64_t most);
 /// Calls `draw` for the skeleton of each plant that stands somewhere.
 void studio_store_each_skeleton(const StudioStore *store,
                                 void (*draw)(void *user, const mat4s *model, GLuint points,
