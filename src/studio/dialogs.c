@@ -123,6 +123,7 @@ static const Shortcut rows[] = {
     {NULL, "<Control>s", "Save"},
     {NULL, "<Control><Shift>s", "Save as"},
     {NULL, "<Control>e", "Export"},
+    {NULL, "<Control><Shift>e", "Export the plant that is chosen"},
     {NULL, "<Control>z", "Undo"},
     {NULL, "<Control><Shift>z", "Redo"},
     {NULL, "F8", "Go to the first problem"},

@@ -7,11 +7,10 @@
 typedef struct Job {
     StudioWindow *window; // a reference
     GtkWidget *dialog;    // weak
-    GtkWidget *bar, *write, *hosts, *lod;
+    GtkWidget *bar, *write, *hosts, *lod, *place;
     FrSource *source;
-    char *folder, *path;
-    FrLeaves leaves;
-    int level;
+    char *folder, *path, *name; // name: of the file that is proposed, without its ending
+    StudioExport how;
     FrProgress *progress;
     FrDiags *diags;
     StudioExported exported;
@@ -49,6 +48,7 @@ static void job_free(Job *job) {
     fr_diags_free(job->diags);
     g_free(job->folder);
     g_free(job->path);
+    g_free(job->name);
     g_object_unref(job->window);
     g_free(job);
 }
@@ -61,8 +61,7 @@ static void work(GTask *task, gpointer source, gpointer data, GCancellable *canc
     context.pool = fr_pool_new(0);
     context.progress = job->progress;
     context.diags = job->diags;
-    job->exported =
-        studio_export(job->source, job->folder, job->path, job->leaves, job->level, &context);
+    job->exported = studio_export(job->source, job->folder, job->path, &job->how, &context);
     fr_pool_free(context.pool);
     g_task_return_boolean(task, TRUE);
 }
@@ -107,8 +106,9 @@ static void begin(Job *job, const char *path) {
     job->path = g_str_has_suffix(path, profile->extension)
                     ? g_strdup(path)
                     : g_strconcat(path, profile->extension, NULL);
-    job->leaves = profile->leaves;
-    job->level = (int)gtk_spin_button_get_value(GTK_SPIN_BUTTON(job->lod));
+    job->how.leaves = profile->leaves;
+    job->how.lod = (int)gtk_spin_button_get_value(GTK_SPIN_BUTTON(job->lod));
+    job->how.in_place = job->place != NULL && gtk_switch_get_active(GTK_SWITCH(job->place));
     gtk_widget_set_sensitive(job->write, FALSE);
     gtk_widget_set_visible(job->bar, TRUE);
     start(job);
@@ -133,17 +133,12 @@ static void on_write(GtkButton *button, Job *job) {
     GtkFileChooserNative *chooser =
         gtk_file_chooser_native_new("Export the Model", GTK_WINDOW(job->dialog),
                                     GTK_FILE_CHOOSER_ACTION_SAVE, "_Export", "_Cancel");
-    char *name = g_strdup(studio_document_name(job->window->document));
-    if (g_str_has_suffix(name, ".frond")) {
-        name[strlen(name) - strlen(".frond")] = '\0';
-    }
-    char *whole = g_strconcat(name, profile->extension, NULL);
+    char *whole = g_strconcat(job->name, profile->extension, NULL);
     gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), whole);
     gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
     g_signal_connect(chooser, "response", G_CALLBACK(on_chosen), job);
     gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
     g_free(whole);
-    g_free(name);
 }
 
 static void on_host(GObject *row, GParamSpec *spec, Job *job) {
@@ -192,29 +187,63 @@ static GtkWidget *make_level(Job *job) {
     return row;
 }
 
-static Job *job_new(StudioWindow *window) {
+static GtkWidget *make_place(Job *job) {
+    GtkWidget *row = adw_action_row_new();
+    adw_preferences_row_set_title(ADW_PREFERENCES_ROW(row), "Where it stands");
+    adw_action_row_set_subtitle(ADW_ACTION_ROW(row), "Else its foot is at the origin");
+    job->place = gtk_switch_new();
+    gtk_widget_set_valign(job->place, GTK_ALIGN_CENTER);
+    gtk_widget_set_name(job->place, "export-in-place");
+    studio_name(job->place, "Where it stands");
+    adw_action_row_add_suffix(ADW_ACTION_ROW(row), job->place);
+    adw_action_row_set_activatable_widget(ADW_ACTION_ROW(row), job->place);
+    return row;
+}
+
+static char *name_of(StudioWindow *window, const StudioOne *one) {
+    char *name = g_strdup(studio_document_name(window->document));
+    if (g_str_has_suffix(name, ".frond")) {
+        name[strlen(name) - strlen(".frond")] = '\0';
+    }
+    char *whole = one == NULL ? g_strdup(name) : g_strdup_printf("%s-%s", name, one->name);
+    g_free(name);
+    return whole;
+}
+
+static Job *job_new(StudioWindow *window, const StudioOne *one) {
     Job *job = g_new0(Job, 1);
     job->window = g_object_ref(window);
+    job->name = name_of(window, one);
+    job->how = (StudioExport){.time = window->moment.time,
+                              .step = window->moment.step,
+                              .is_one = one != NULL,
+                              .origin = one == NULL ? 0 : one->origin,
+                              .number = one == NULL ? 0 : one->number};
     job->progress = fr_progress_new(report, job);
     job->diags = fr_diags_new();
     return job;
 }
 
-void studio_window_export_to(StudioWindow *window, const char *path) {
-    Job *job = job_new(window);
+void studio_window_export_to(StudioWindow *window, const StudioOne *one, const char *path) {
+    Job *job = job_new(window, one);
     job->path = g_strdup(path);
     start(job);
 }
 
-void studio_window_export(StudioWindow *window) {
-    Job *job = job_new(window);
+void studio_window_export(StudioWindow *window, const StudioOne *one) {
+    Job *job = job_new(window, one);
     job->dialog = adw_window_new();
     g_object_add_weak_pointer(G_OBJECT(job->dialog), (gpointer *)&job->dialog);
     GtkWidget *group = adw_preferences_group_new();
-    adw_preferences_group_set_description(ADW_PREFERENCES_GROUP(group),
-                                          "Writes the plants as they are now, saved or not.");
+    adw_preferences_group_set_description(
+        ADW_PREFERENCES_GROUP(group),
+        one == NULL ? "Writes the plants as they are now, saved or not."
+                    : "Writes this plant alone, as it has grown among the others.");
     adw_preferences_group_add(ADW_PREFERENCES_GROUP(group), make_hosts(job));
     adw_preferences_group_add(ADW_PREFERENCES_GROUP(group), make_level(job));
+    if (one != NULL) {
+        adw_preferences_group_add(ADW_PREFERENCES_GROUP(group), make_place(job));
+    }
     job->bar = gtk_progress_bar_new();
     gtk_widget_set_visible(job->bar, FALSE);
     job->write = gtk_button_new_with_label("Export…");
@@ -230,7 +259,7 @@ void studio_window_export(StudioWindow *window) {
     gtk_box_append(GTK_BOX(box), header);
     gtk_box_append(GTK_BOX(box), inside);
     adw_window_set_content(ADW_WINDOW(job->dialog), box);
-    gtk_window_set_title(GTK_WINDOW(job->dialog), "Export");
+    gtk_window_set_title(GTK_WINDOW(job->dialog), one == NULL ? "Export" : "Export This Plant");
     gtk_window_set_default_size(GTK_WINDOW(job->dialog), 480, -1);
     gtk_window_set_transient_for(GTK_WINDOW(job->dialog), GTK_WINDOW(window));
     gtk_window_set_modal(GTK_WINDOW(job->dialog), TRUE);

@@ -19,6 +19,7 @@ static void add_keys(GtkApplication *application) {
         {"win.save", {"<Control>s"}},
         {"win.save-as", {"<Control><Shift>s"}},
         {"win.export", {"<Control>e"}},
+        {"win.export-one", {"<Control><Shift>e"}},
         {"win.undo", {"<Control>z"}},
         {"win.redo", {"<Control><Shift>z", "<Control>y"}},
         {"win.duplicate", {"<Control>d"}},

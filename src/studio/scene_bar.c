@@ -133,8 +133,9 @@ static GtkWidget *make_options(StudioSceneTool *tool) {
     GtkWidget *box = studio_wrap_box_new(12);
     GtkWidget *groups[SCENE_GROUP_COUNT];
     for (int i = 0; i < SCENE_GROUP_COUNT; i++) {
-        groups[i] = i == SCENE_GROUP_COUNT - 1 ? studio_scene_one_bar(tool)
-                                               : gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+        groups[i] = i == SCENE_GROUP_ONE      ? studio_scene_one_bar(tool)
+                    : i == SCENE_GROUP_EXPORT ? studio_scene_export_bar()
+                                              : gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
         studio_wrap_box_append(STUDIO_WRAP_BOX(box), groups[i]);
     }
     tool->what = labelled(groups[0], "_What", gtk_drop_down_new_from_strings(NULL),
@@ -243,7 +244,7 @@ void studio_scene_show_hint(StudioSceneTool *tool) {
 
 void studio_scene_update_bars(StudioSceneTool *tool) {
     static const bool shown[SCENE_TOOL_COUNT][SCENE_GROUP_COUNT] = {
-        [SCENE_MOVE] = {[SCENE_GROUP_COUNT - 1] = true},
+        [SCENE_MOVE] = {[SCENE_GROUP_ONE] = true, [SCENE_GROUP_EXPORT] = true},
         [SCENE_PLANT] = {true},
         [SCENE_PAINT] = {true, true, true},
         [SCENE_TAKE_OUT] = {false, true},
@@ -252,7 +253,9 @@ void studio_scene_update_bars(StudioSceneTool *tool) {
     };
     list_again(tool);
     for (int i = 0; i < SCENE_GROUP_COUNT; i++) {
-        bool is_wanted = i != SCENE_GROUP_COUNT - 1 || tool->one_of != NULL;
+        bool is_wanted = i == SCENE_GROUP_ONE      ? tool->one_of != NULL
+                         : i == SCENE_GROUP_EXPORT ? studio_scene_is_one(tool)
+                                                   : true;
         gtk_widget_set_visible(tool->groups[i], shown[tool->tool][i] && is_wanted);
     }
     studio_scene_show_hint(tool);

@@ -65,10 +65,81 @@ static void do_leave_out(GSimpleAction *action, GVariant *parameter, gpointer da
     }
 }
 
+// ---- a model of its own ------------------------------------------------------------------------
+
+// The row, area or place of the plant that is chosen; FR_NONE: none is.
+static uint32_t element_of_one(const StudioSceneTool *tool) {
+    const StudioDocument *document = tool->window->document;
+    if (document == NULL || studio_document_is_broken(document) ||
+        studio_document_contents(document) == NULL) {
+        return FR_NONE;
+    }
+    uint32_t selected = studio_window_selected(tool->window), row = row_of(tool);
+    bool is_place =
+        selected != FR_NONE &&
+        strcmp(fr_contents_at(studio_document_contents(document), selected)->name, "place") == 0;
+    return row != FR_NONE ? row : is_place ? selected : FR_NONE;
+}
+
+bool studio_scene_is_one(const StudioSceneTool *tool) {
+    return element_of_one(tool) != FR_NONE;
+}
+
+// The plant that is chosen, its name to be freed; false after a message.
+static bool find_one(const StudioSceneTool *tool, StudioOne *one) {
+    uint32_t element = element_of_one(tool);
+    if (element == FR_NONE) {
+        studio_window_say(tool->window, "Click a plant first, with the tool Move");
+        return false;
+    }
+    const FrContents *contents = studio_document_contents(tool->window->document);
+    const FrContentsElement *at = fr_contents_at(contents, element);
+    bool is_place = strcmp(at->name, "place") == 0;
+    // A stand knows where the name of its element begins, which is behind the bracket.
+    *one = (StudioOne){.origin = at->begin + 1, .number = is_place ? 0 : tool->one};
+    one->name = is_place ? fr_contents_get(contents, element, "plant")
+                         : g_strdup_printf("%s-%u", at->name, tool->one);
+    return true;
+}
+
+static void do_export_one(GSimpleAction *action, GVariant *parameter, gpointer data) {
+    (void)action;
+    (void)parameter;
+    const StudioSceneTool *tool = data;
+    StudioOne one;
+    if (find_one(tool, &one)) {
+        studio_window_export(tool->window, &one);
+        g_free(one.name);
+    }
+}
+
+static void do_export_one_to(GSimpleAction *action, GVariant *parameter, gpointer data) {
+    (void)action;
+    const StudioSceneTool *tool = data;
+    StudioOne one;
+    if (find_one(tool, &one)) {
+        studio_window_export_to(tool->window, &one, g_variant_get_string(parameter, NULL));
+        g_free(one.name);
+    }
+}
+
+GtkWidget *studio_scene_export_bar(void) {
+    GtkWidget *button = gtk_button_new_with_label("Export This Plant…");
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "win.export-one");
+    gtk_widget_set_tooltip_text(button, "Writes a model of it alone, as it has grown among the "
+                                        "others (Ctrl+Shift+E)");
+    gtk_widget_set_name(button, "export-one");
+    return button;
+}
+
+// ---- what is done with it ----------------------------------------------------------------------
+
 void studio_scene_add_one_actions(StudioSceneTool *tool) {
     static const GActionEntry entries[] = {
         {"take-one", do_take, NULL, NULL, NULL, {0}},
         {"leave-one-out", do_leave_out, NULL, NULL, NULL, {0}},
+        {"export-one", do_export_one, NULL, NULL, NULL, {0}},
+        {"export-one-to", do_export_one_to, "s", NULL, NULL, {0}},
     };
     g_action_map_add_action_entries(G_ACTION_MAP(tool->window), entries, G_N_ELEMENTS(entries),
                                     tool);

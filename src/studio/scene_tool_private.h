@@ -21,7 +21,8 @@ typedef enum SceneTool {
     SCENE_TOOL_COUNT,
 } SceneTool;
 
-enum { SCENE_GROUP_COUNT = 6 }; ///< groups of options
+/// Groups of options: those of tools, of one plant of a row, of any plant.
+enum { SCENE_GROUP_ONE = 5, SCENE_GROUP_EXPORT, SCENE_GROUP_COUNT };
 
 typedef struct SceneToolKind {
     const char *name, *icon, *tip, *hint;
@@ -99,6 +100,10 @@ void studio_scene_set_one(StudioSceneTool *tool, uint32_t element, uint32_t numb
 void studio_scene_add_one_actions(StudioSceneTool *tool);
 /// What can be done with it.
 GtkWidget *studio_scene_one_bar(StudioSceneTool *tool);
+/// Whether one plant is chosen: of a row or an area, or a place.
+bool studio_scene_is_one(const StudioSceneTool *tool);
+/// What can be done with it wherever it stands.
+GtkWidget *studio_scene_export_bar(void);
 /// All plants of rows and areas; free with g_array_unref().
 GArray *studio_scene_ones(const StudioSceneTool *tool);
 /// Leaves out those of them within a radius.

@@ -330,12 +330,12 @@ static void do_side(GSimpleAction *action, GVariant *parameter, gpointer data) {
 static void do_export(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
     (void)parameter;
-    studio_window_export(data);
+    studio_window_export(data, NULL);
 }
 
 static void do_export_to(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
-    studio_window_export_to(data, g_variant_get_string(parameter, NULL));
+    studio_window_export_to(data, NULL, g_variant_get_string(parameter, NULL));
 }
 
 static void do_preferences(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -427,10 +427,10 @@ static void set_tip(GtkWidget *button, const char *verb, const char *step) {
 }
 
 void studio_window_update_actions(StudioWindow *window) {
-    static const char *const always[] = {"save-as", "save-to", "export", "export-to", "screenshot",
-                                         "prune",   "hide",    "set",    "select",    "frame",
-                                         "zoom",    "mode",    "grid",   "shadow",    "occlusion",
-                                         "side",    "sketch"};
+    static const char *const always[] = {
+        "save-as",   "save-to", "export", "export-to",  "screenshot",   "prune", "hide",
+        "set",       "select",  "frame",  "zoom",       "mode",         "grid",  "shadow",
+        "occlusion", "side",    "sketch", "export-one", "export-one-to"};
     StudioDocument *document = window->document;
     bool is_there = document != NULL;
     for (size_t i = 0; i < G_N_ELEMENTS(always); i++) {

@@ -85,6 +85,7 @@ static GtkWidget *make_menu_button(void) {
                                           {"_Open…", "win.open"},
                                           {"Save _As…", "win.save-as"},
                                           {"_Export…", "win.export"},
+                                          {"Export T_his Plant…", "win.export-one"},
                                           {"Save _Picture…", "win.screenshot"}};
     static const char *const help[][2] = {{"_Preferences", "win.preferences"},
                                           {"_Keyboard Shortcuts", "win.shortcuts"},

@@ -135,9 +135,16 @@ GtkWidget *studio_welcome_new(StudioWindow *window);
 
 // export.c
 
-void studio_window_export(StudioWindow *window);
+/// One plant of the scene.
+typedef struct StudioOne {
+    uint32_t origin, number; ///< as in FrStand
+    char *name;              ///< for a file: "oak", "row-3"
+} StudioOne;
+
+/// `one` NULL: all plants.
+void studio_window_export(StudioWindow *window, const StudioOne *one);
 /// Writes a model without asking, in the format of the file's ending.
-void studio_window_export_to(StudioWindow *window, const char *path);
+void studio_window_export_to(StudioWindow *window, const StudioOne *one, const char *path);
 
 // dialogs.c
 

@@ -824,6 +824,54 @@ def test_export(run):
         assert file.read(4) == b"glTF"
 
 
+def glb_nodes(path):
+    """Of each node of a model: how many vertices its parts have and where they end; where it stands."""
+    with open(path, "rb") as file:
+        content = file.read()
+    scene = json.loads(content[20:20 + int.from_bytes(content[12:16], "little")])
+    parts = [[scene["accessors"][part["attributes"]["POSITION"]] for part in mesh["primitives"]]
+             for mesh in scene["meshes"]]
+    return [([(part["count"], part["max"]) for part in parts[node["mesh"]]], node.get("translation"))
+            for node in scene["nodes"]]
+
+
+def test_export_one(run):
+    """one plant of a grown scene is a model of its own, at the step that is seen"""
+    open_grove(run)
+    studio = run.studio
+    studio.ask("do scene-tool::plant")
+    for place in ((1.5, -0.5, 0), (-1.5, 0, 0)):
+        studio.click(studio.point(*place))
+        studio.wait()
+    for _ in range(6):
+        studio.click(studio.middle("A step"))
+        studio.wait()
+    studio.ask("do scene-tool::select")
+    studio.ask("do select::")
+    studio.wait()
+    model = os.path.join(run.home, "one.glb")
+    studio.ask(f"do export-one-to('{model}')")
+    assert studio.ask("said").startswith("Click a plant first"), studio.ask("said")
+    assert not os.path.exists(model)
+    studio.ask("do scene-tool::move")
+    studio.click(studio.point(1.5, -0.5, 0))
+    studio.wait()
+    run.picture("export-one")
+    studio.ask(f"do export-one-to('{model}')")
+    whole = os.path.join(run.home, "whole.glb")
+    studio.ask(f"do export-to('{whole}')")
+    studio.wait()
+    all_plants, one = glb_nodes(whole), glb_nodes(model)
+    assert len(all_plants) == 3 and len(one) == 1, (all_plants, one)
+    assert one[0][1] is None and all_plants[1] == (one[0][0], [1.5, 0, 0.5]), (all_plants, one)
+    assert max(top[1] for _, top in one[0][0]) > 0.2, "it has grown"
+    studio.click(studio.middle("export-one"))
+    studio.wait()
+    studio.ask(f"picture-of-dialog {PICTURES / 'export-one-dialog'}.png")
+    studio.ask("close-dialog")
+    studio.ask("do scene-tool::select")
+
+
 def test_dialogs(run):
     """every dialog opens and closes"""
     for action in ("export", "preferences", "shortcuts", "about"):
@@ -851,7 +899,7 @@ def test_killed(run):
 
 
 
-TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_levels, test_arrange, test_rows,
+TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_levels, test_arrange, test_rows, test_export_one,
          test_light, test_lamps, test_patch, test_sketch,
          test_device, test_flower, test_link, test_preset, test_slider, test_material, test_keys, test_wind, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]

@@ -190,9 +190,11 @@ static void test_export(void) {
         char *name = g_strconcat("model", profiles[i].extension, NULL);
         char *path = g_build_filename(folder, name, NULL);
         FrContext context = fr_context_default();
+        const StudioExport how = {
+            .leaves = profiles[i].leaves, .lod = profiles[i].lod, .time = NAN, .step = -1};
         StudioExported exported =
             studio_export(studio_document_source(document), studio_document_folder(document), path,
-                          profiles[i].leaves, profiles[i].lod, &context);
+                          &how, &context);
         g_assert_cmpint(exported.status, ==, FR_OK);
         g_assert_cmpuint(exported.stats.bytes, >, 100);
         g_free(path);
