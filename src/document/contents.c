@@ -219,7 +219,7 @@ char *fr_contents_text(const FrContents *contents, uint32_t element, FrSpan *pla
 }
 
 bool fr_contents_is_id(const char *id) {
-    return fr_id_is_valid(id);
+    return fr_id_is_valid(id) && strlen(id) <= FR_LONGEST_ID;
 }
 
 // ---- edits -------------------------------------------------------------------------------------

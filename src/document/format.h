@@ -62,7 +62,9 @@ FrElement fr_element(FrElementId id);
 FrElementId fr_element_find(const char *name);
 /// True if `required` of the element names the attribute.
 bool fr_element_requires(const FrElement *element, const char *attribute);
-/// True for what `id` may be: a letter or `_`, then letters, digits, `_` and `-`.
+enum { FR_LONGEST_ID = 64 }; ///< bytes
+/// True for what `id` may be but for its length: a letter or `_`, then letters, digits, `_` and
+/// `-`.
 bool fr_id_is_valid(const char *id);
 
 /// The newest version of the format, and the only one so far.

@@ -3,10 +3,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-enum {
-    LONGEST_ID = 64, // bytes
-    HINTS = 20,
-};
+enum { HINTS = 20 };
 
 void fr_reader_open(FrReader *reader, FrDocument *document, FrDiags *diags) {
     *reader =
@@ -168,7 +165,7 @@ static void report_unknown_attribute(FrReader *reader, FrXmlRange place, const F
 static const FrParam *find_row(const FrReader *reader, const FrElement *element, FrXmlRange range) {
     const char *text = fr_source_text(reader->tree->source, NULL) + range.begin;
     size_t length = range.end - range.begin;
-    if (element->table == NULL || length > LONGEST_ID || memchr(text, '_', length) != NULL) {
+    if (element->table == NULL || length > FR_LONGEST_ID || memchr(text, '_', length) != NULL) {
         return NULL;
     }
     char *name = g_strndup(text, length);
@@ -257,11 +254,11 @@ char *fr_read_id(FrReader *reader, uint32_t node) {
         return NULL;
     }
     char *id = fr_xml_decode(reader->tree, attribute->value, true);
-    if (strlen(id) > LONGEST_ID || !fr_id_is_valid(id)) {
+    if (strlen(id) > FR_LONGEST_ID || !fr_id_is_valid(id)) {
         fr_read_error(
             reader, "bad-id", attribute->value,
             "an id is a letter followed by letters, digits, '-' and '_', at most %d bytes",
-            LONGEST_ID);
+            FR_LONGEST_ID);
         g_free(id);
         return NULL;
     }

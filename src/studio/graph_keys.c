@@ -163,7 +163,7 @@ static gboolean carry(StudioGraphPanel *panel, guint key, double dx, double dy) 
         return TRUE;
     }
     bool is_enter = key == GDK_KEY_Return || key == GDK_KEY_KP_Enter;
-    if (is_enter || key == GDK_KEY_Escape || key == GDK_KEY_l) {
+    if (is_enter || key == GDK_KEY_l) {
         put_down(panel, is_enter);
         return TRUE;
     }
@@ -187,6 +187,10 @@ static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkMo
     (void)code;
     double dx = key == GDK_KEY_Right ? 1 : key == GDK_KEY_Left ? -1 : 0;
     double dy = key == GDK_KEY_Down ? 1 : key == GDK_KEY_Up ? -1 : 0;
+    if (key == GDK_KEY_Escape && panel->drag != DRAG_NOTHING) {
+        put_down(panel, false);
+        return TRUE;
+    }
     if (panel->graph->boxes->len == 0) {
         return FALSE;
     }

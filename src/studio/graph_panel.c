@@ -56,6 +56,9 @@ static void on_begin(GtkGestureDrag *gesture, double x, double y, StudioGraphPan
 }
 
 static void on_drag(GtkGestureDrag *gesture, double dx, double dy, StudioGraphPanel *panel) {
+    if (panel->drag == DRAG_NOTHING) { // put down by Escape
+        return;
+    }
     double x0, y0;
     gtk_gesture_drag_get_start_point(gesture, &x0, &y0);
     panel->is_dragged = panel->is_dragged || hypot(dx, dy) > CLICK;

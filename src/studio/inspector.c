@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-static guint followed;
+static guint followed, said;
 
 G_DEFINE_TYPE(StudioInspector, studio_inspector, GTK_TYPE_BOX)
 
@@ -75,6 +75,17 @@ static void on_follow(StudioParamRow *row, const char *id, StudioInspector *insp
     studio_inspector_follow(inspector, id);
 }
 
+// Tells why an element is not called so, and shows its name again.
+static void refuse_name(StudioInspector *inspector, const char *id, const char *to) {
+    char *reason = fr_contents_is_id(to)
+                       ? g_strdup_printf("There is something else that is called %s", to)
+                       : g_strdup("A name is a letter followed by letters, digits, - and _, at "
+                                  "most 64 bytes");
+    g_signal_emit(inspector, said, 0, reason);
+    gtk_editable_set_text(GTK_EDITABLE(inspector->id), id);
+    g_free(reason);
+}
+
 static void on_renamed(GtkEntry *entry, StudioInspector *inspector) {
     uint32_t element = studio_inspector_element(inspector);
     if (element == FR_NONE) {
@@ -85,21 +96,18 @@ static void on_renamed(GtkEntry *entry, StudioInspector *inspector) {
     uint32_t plant = studio_place_plant(contents, element);
     char *to = g_strdup(gtk_editable_get_text(GTK_EDITABLE(entry)));
     bool is_material = at->table == fr_material_table();
-    if (is_material && g_strcmp0(at->id, to) != 0) {
-        if (studio_rename_material(inspector->document, element, to)) {
-            g_signal_emit(inspector, followed, 0, element);
+    bool has_name = at->id != NULL && (is_material || (at->component >= 0 && plant != FR_NONE));
+    if (has_name && strcmp(at->id, to) != 0) {
+        bool is_renamed = is_material
+                              ? studio_rename_material(inspector->document, element, to)
+                              : studio_rename_component(inspector->document, plant, at->id, to);
+        if (is_renamed) {
+            contents = studio_document_contents(inspector->document);
+            g_signal_emit(inspector, followed, 0,
+                          is_material ? element : fr_contents_find(contents, plant, to));
         } else {
-            gtk_editable_set_text(GTK_EDITABLE(entry), at->id == NULL ? "" : at->id);
+            refuse_name(inspector, at->id, to);
         }
-        g_free(to);
-        return;
-    }
-    bool is_renamed = at->component >= 0 && plant != FR_NONE && at->id != NULL &&
-                      strcmp(at->id, to) != 0 &&
-                      studio_rename_component(inspector->document, plant, at->id, to);
-    if (is_renamed) {
-        contents = studio_document_contents(inspector->document);
-        g_signal_emit(inspector, followed, 0, fr_contents_find(contents, plant, to));
     }
     g_free(to);
 }
@@ -391,6 +399,8 @@ static void studio_inspector_class_init(StudioInspectorClass *class) {
     G_OBJECT_CLASS(class)->finalize = studio_inspector_finalize;
     followed = g_signal_new("selected", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL,
                             NULL, G_TYPE_NONE, 1, G_TYPE_UINT);
+    said = g_signal_new("said", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+                        G_TYPE_NONE, 1, G_TYPE_STRING);
 }
 
 static void studio_inspector_init(StudioInspector *inspector) {

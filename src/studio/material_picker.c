@@ -25,6 +25,8 @@ static GtkWidget *new_swatch(int size) {
     GtkWidget *picture = gtk_picture_new();
     gtk_picture_set_can_shrink(GTK_PICTURE(picture), TRUE);
     gtk_widget_set_size_request(picture, size, size);
+    gtk_widget_set_halign(picture, GTK_ALIGN_CENTER);
+    gtk_widget_set_valign(picture, GTK_ALIGN_CENTER);
     return picture;
 }
 

@@ -156,6 +156,12 @@ void studio_viewport_add_picture(StudioViewport *viewport, const StudioPicture *
 void studio_viewport_forget(StudioViewport *viewport) {
     viewport->is_framed = false;
     viewport->camera = studio_camera_default();
+    if (viewport->renderer != NULL) {
+        gtk_gl_area_make_current(GTK_GL_AREA(viewport));
+        studio_store_clear(studio_renderer_store(viewport->renderer));
+        studio_renderer_invalidate(viewport->renderer, true);
+        studio_viewport_wake(viewport);
+    }
 }
 
 StudioDisplay *studio_viewport_display(StudioViewport *viewport) {

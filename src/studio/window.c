@@ -1,5 +1,6 @@
 #include "studio/window_private.h"
 
+#include "studio/accessible.h"
 #include "studio/wind_menu.h"
 
 #include <math.h>
@@ -27,6 +28,11 @@ void studio_window_say(StudioWindow *window, const char *format, ...) {
     adw_toast_overlay_add_toast(window->toasts, toast);
     g_free(escaped);
     g_free(text);
+}
+
+void studio_window_on_said(GObject *panel, const char *text, StudioWindow *window) {
+    (void)panel;
+    studio_window_say(window, "%s", text);
 }
 
 uint32_t studio_window_selected(const StudioWindow *window) {
@@ -232,6 +238,8 @@ void studio_window_take(StudioWindow *window, StudioDocument *document) {
         gtk_widget_set_visible(window->welcome_hidden[i], TRUE);
     }
     studio_viewport_forget(window->viewport);
+    gtk_widget_set_visible(window->amount, FALSE);
+    studio_describe(GTK_WIDGET(window->viewport), "");
     studio_scene_tool_reset(window->scene);
     studio_window_unpick(window);
     const FrContents *contents = studio_document_contents(document);

@@ -340,6 +340,7 @@ static GtkWidget *make_middle(StudioWindow *window) {
 GtkWidget *studio_window_make_panes(StudioWindow *window) {
     window->inspector = STUDIO_INSPECTOR(studio_inspector_new());
     g_signal_connect(window->inspector, "selected", G_CALLBACK(on_selected), window);
+    g_signal_connect(window->inspector, "said", G_CALLBACK(studio_window_on_said), window);
     window->levels = STUDIO_LEVELS_PANEL(
         studio_levels_panel_new(window->settings, GTK_WIDGET(window->inspector)));
     GtkWidget *column = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);

@@ -101,6 +101,8 @@ void studio_window_add_preset_actions(StudioWindow *window);
 
 /// Shows an element in the inspector, the graph and the list; FR_NONE: nothing.
 void studio_window_select(StudioWindow *window, uint32_t element);
+/// Of panels that have a signal "said".
+void studio_window_on_said(GObject *panel, const char *text, StudioWindow *window);
 uint32_t studio_window_selected(const StudioWindow *window);
 /// The plant that the graph shows; FR_NONE.
 uint32_t studio_window_plant(const StudioWindow *window);

@@ -1,11 +1,6 @@
 /// Between the window and its sketch mode.
 #include "studio/window_private.h"
 
-static void on_said(StudioSketchPanel *panel, const char *text, StudioWindow *window) {
-    (void)panel;
-    studio_window_say(window, "%s", text);
-}
-
 bool studio_window_is_sketching(StudioWindow *window) {
     GAction *action = g_action_map_lookup_action(G_ACTION_MAP(window), "sketch");
     GVariant *state = g_action_get_state(action);
@@ -56,6 +51,6 @@ void studio_window_add_sketch(StudioWindow *window) {
     const int widths[2] = {studio_settings_int(window->settings, "sketch-width", 430),
                            studio_settings_int(window->settings, "sketch-board-width", 500)};
     studio_sketch_panel_set_widths(window->sketch, widths);
-    g_signal_connect(window->sketch, "said", G_CALLBACK(on_said), window);
+    g_signal_connect(window->sketch, "said", G_CALLBACK(studio_window_on_said), window);
     gtk_stack_add_named(GTK_STACK(window->stack), GTK_WIDGET(window->sketch), "sketch");
 }

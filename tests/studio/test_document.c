@@ -167,6 +167,10 @@ static void test_rename(void) {
     uint32_t plant = first_plant(document);
     g_assert_false(studio_rename_component(document, plant, "a", "ab"));
     g_assert_false(studio_rename_component(document, plant, "a", "1x"));
+    g_assert_false(studio_rename_component(document, plant, "a", ""));
+    char *longest = g_strnfill(65, 'x'); // and one more
+    g_assert_false(studio_rename_component(document, plant, "a", longest));
+    g_free(longest);
     g_assert_true(studio_rename_component(document, plant, "a", "b"));
     g_assert_cmpstr(text_of(document), ==,
                     "<frond version=\"1\"><plant id=\"p\"><pgraph><camera id=\"r\"/>"

@@ -139,6 +139,20 @@ def test_examples(run):
         assert state["saved"], f"{file.name} was changed by opening it"
 
 
+def test_broken(run):
+    """a document that cannot be read shows no plant of the one before"""
+    broken = os.path.join(run.home, "broken.frond")
+    with open(broken, "w", encoding="utf-8") as file:
+        file.write('<frond version="1"><plant id="p"')
+    run.studio.ask(f"open {SOURCE / 'examples' / 'sunflower.frond'}")
+    run.studio.wait()
+    assert run.studio.state()["triangles"] > 0
+    run.studio.ask(f"open {broken}")
+    run.picture("broken")
+    state = run.studio.state()
+    assert state["problems"] == 1 and state["triangles"] == 0, state
+
+
 def test_welcome(run):
     """a new window welcomes with presets"""
     run.studio.ask("size 1440 900")
@@ -341,6 +355,33 @@ def test_link(run):
     run.picture("flower-linked")
 
 
+def test_escape(run):
+    """a component that is dragged goes back by Escape, and names that are taken are refused"""
+    studio = run.studio
+    before = studio.state()
+    begin, end = studio.middle("tool:leaf"), studio.middle("box:stem")
+    studio.go(begin)
+    studio.pointer("mousedown", 1)
+    for step in range(1, 7):
+        studio.go([a + (b - a) * step / 6 for a, b in zip(begin, end)])
+    studio.wait()
+    studio.pointer("key", "Escape")
+    studio.go([end[0] + 1, end[1]])
+    studio.pointer("mouseup", 1)
+    studio.wait()
+    assert studio.state()["digest"] == before["digest"], "it was dropped all the same"
+    studio.ask("do select::stem")
+    for name, why in (("leaf", "called leaf"), ("9x", "A name is")):
+        studio.click(studio.middle("element-id"))
+        studio.pointer("key", "ctrl+a")
+        studio.pointer("type", name)
+        studio.pointer("key", "Return")
+        studio.wait()
+        assert why in studio.ask("said"), studio.ask("said")
+        run.picture("flower-name")
+    assert studio.state()["digest"] == before["digest"]
+
+
 def test_preset(run):
     """a part of a plant is kept as a preset, and put in again as one step"""
     studio = run.studio
@@ -354,7 +395,7 @@ def test_preset(run):
     kept = os.path.join(run.home, "data", "frond", "presets", "a head")
     assert os.path.exists(kept + ".frond")
     studio.drag(studio.middle("tool:preset"), studio.middle("box:stem"))
-    for _ in range(200):  # it is drawn meanwhile
+    for _ in range(600):  # it is drawn meanwhile
         if os.path.exists(kept + ".png"):
             break
         time.sleep(0.1)
@@ -899,9 +940,9 @@ def test_killed(run):
 
 
 
-TESTS = [test_welcome, test_examples, test_lsystem, test_grove, test_levels, test_arrange, test_rows, test_export_one,
+TESTS = [test_welcome, test_examples, test_broken, test_lsystem, test_grove, test_levels, test_arrange, test_rows, test_export_one,
          test_light, test_lamps, test_patch, test_sketch,
-         test_device, test_flower, test_link, test_preset, test_slider, test_material, test_keys, test_wind, test_curve, test_view, test_hand,
+         test_device, test_flower, test_link, test_escape, test_preset, test_slider, test_material, test_keys, test_wind, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
 

@@ -98,9 +98,8 @@ StudioStore *studio_store_new(void) {
     store->plants = g_ptr_array_new_with_free_func(plant_free);
     store->stands = g_array_new(FALSE, FALSE, sizeof(Stand));
     store->pictures = studio_pictures_new();
-    store->min[0] = 1;
-    store->max[0] = -1;
     store->sun[2] = 1;
+    studio_store_clear(store);
     return store;
 }
 
@@ -305,6 +304,14 @@ void studio_store_update(StudioStore *store, const StudioView *view) {
     glFinish();
     measure(store);
     store->amount.uploaded_seconds = (double)(g_get_monotonic_time() - began) * 1e-6;
+}
+
+void studio_store_clear(StudioStore *store) {
+    g_array_set_size(store->stands, 0);
+    g_ptr_array_set_size(store->plants, 0);
+    store->min[0] = 1;
+    store->max[0] = -1;
+    store->amount = (StudioAmount){0};
 }
 
 void studio_store_add_picture(StudioStore *store, const StudioPicture *picture) {

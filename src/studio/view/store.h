@@ -41,6 +41,8 @@ StudioStore *studio_store_new(void);
 void studio_store_free(StudioStore *store);
 /// Sends what differs from the last view.
 void studio_store_update(StudioStore *store, const StudioView *view);
+/// Holds nothing any more but pictures.
+void studio_store_clear(StudioStore *store);
 void studio_store_add_picture(StudioStore *store, const StudioPicture *picture);
 StudioAmount studio_store_amount(const StudioStore *store);
 /// The box around everything; min > max if there is nothing.
