@@ -40,20 +40,40 @@ static void text_at(StudioGraphPanel *panel, cairo_t *cairo, const char *text, d
     g_object_unref(layout);
 }
 
-// Child links are thin, branch links bold, leaf links dashed, as in the paper.
+// The line of a wire, or one beside it.
+static void draw_line(cairo_t *cairo, const double at[4][2], double aside) {
+    enum { PIECES = 24 };
+    for (int k = 0; k <= PIECES; k++) {
+        double t = (double)k / PIECES, s = 1 - t, point[2], along[2];
+        for (int i = 0; i < 2; i++) {
+            point[i] = s * s * s * at[0][i] + 3 * s * s * t * at[1][i] + 3 * s * t * t * at[2][i] +
+                       t * t * t * at[3][i];
+            along[i] = s * s * (at[1][i] - at[0][i]) + 2 * s * t * (at[2][i] - at[1][i]) +
+                       t * t * (at[3][i] - at[2][i]);
+        }
+        double by = aside / fmax(hypot(along[0], along[1]), 1e-6);
+        cairo_line_to(cairo, point[0] - by * along[1], point[1] + by * along[0]);
+    }
+    cairo_stroke(cairo);
+}
+
+// Child links are thin, branch links bold, leaf links dashed, and those of a recursion double, as
+// in the paper.
 static void draw_wire(StudioGraphPanel *panel, cairo_t *cairo, const StudioWire *wire,
                       const GdkRGBA *ink) {
     static const double dashes[] = {5, 4};
-    double at[4][2];
+    double at[4][2], width = wire->kind == FR_LINK_BRANCH ? 3.2 : 1.3;
     studio_graph_wire_course(panel, wire, at);
     bool is_chosen = wire->element == panel->selected;
     cairo_set_source_rgba(cairo, is_chosen ? 1 : ink->red, is_chosen ? 0.62 : ink->green,
                           is_chosen ? 0.13 : ink->blue, is_chosen ? 1 : 0.6);
-    cairo_set_line_width(cairo, wire->kind == FR_LINK_BRANCH ? 3.2 : 1.3);
     cairo_set_dash(cairo, dashes, wire->kind == FR_LINK_LEAF ? 2 : 0, 0);
-    cairo_move_to(cairo, at[0][0], at[0][1]);
-    cairo_curve_to(cairo, at[1][0], at[1][1], at[2][0], at[2][1], at[3][0], at[3][1]);
-    cairo_stroke(cairo);
+    cairo_set_line_width(cairo, wire->is_repeated ? 0.75 * width : width);
+    double aside = wire->is_repeated ? 0.375 * width + 1 : 0;
+    draw_line(cairo, at, aside);
+    if (wire->is_repeated) {
+        draw_line(cairo, at, -aside);
+    }
     cairo_set_dash(cairo, NULL, 0, 0);
     double dx = at[3][0] - at[2][0], dy = at[3][1] - at[2][1], length = fmax(hypot(dx, dy), 1);
     dx *= 6 / length, dy *= 6 / length;
@@ -84,8 +104,9 @@ static const double amber[3] = {0.93, 0.71, 0.08};
 
 static StudioLoad weight_of(StudioGraphPanel *panel, const StudioBox *box) {
     const Load *load = studio_graph_load(panel, box);
-    return load == NULL ? STUDIO_LOAD_FINE
-                        : studio_load_of(load->instances, load->seconds, &panel->budget);
+    return load == NULL || !box->is_enabled // what is off makes nothing because it shall not
+               ? STUDIO_LOAD_FINE
+               : studio_load_of(load->instances, load->seconds, &panel->budget);
 }
 
 // What stands below a box's name: how many there are, and how long they take if that can be felt.
@@ -127,6 +148,54 @@ static void draw_name(StudioGraphPanel *panel, cairo_t *cairo, const StudioBox *
     }
 }
 
+static void fill_ground(cairo_t *cairo, const GdkRGBA *ink) {
+    double ground = ink->red > 0.5f ? 0.20 : 0.97; // light ink stands on a dark ground
+    cairo_set_source_rgb(cairo, ground, ground, ground + 0.01);
+    cairo_fill_preserve(cairo);
+}
+
+static void draw_icon(cairo_t *cairo, const StudioBox *box, double x, double y, double size,
+                      double strength) {
+    double colour[3];
+    studio_component_colour(box->kind, colour);
+    cairo_save(cairo);
+    cairo_translate(cairo, x, y);
+    cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], strength);
+    studio_component_icon(cairo, box->kind, size);
+    cairo_restore(cairo);
+}
+
+// The first component of a recursion once more, dim and double, at its end.
+static void draw_repeat(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index,
+                        const GdkRGBA *ink) {
+    const StudioRepeat *repeat = studio_graph_repeat(panel->graph, index);
+    const StudioBox *box = studio_graph_box(panel->graph, repeat->box);
+    graphene_rect_t rect = studio_graph_repeat_rect(panel, index);
+    double x = rect.origin.x, y = rect.origin.y, scale = studio_graph_scale(panel);
+    double colour[3], strength = box->is_enabled ? 0.6 : 0.3;
+    bool is_chosen = box->element == panel->selected;
+    studio_component_colour(box->kind, colour);
+    draw_second(cairo, &rect, colour, strength);
+    rounded(cairo, x, y, rect.size.width, rect.size.height, 6);
+    fill_ground(cairo, ink);
+    cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], is_chosen ? 0.25 : 0.08);
+    cairo_fill_preserve(cairo);
+    cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], strength);
+    if (is_chosen) {
+        cairo_set_source_rgba(cairo, 1.0, 0.62, 0.13, 0.7);
+    }
+    cairo_set_line_width(cairo, 1);
+    cairo_stroke(cairo);
+    draw_icon(cairo, box, x + 7 * scale, y + 3 * scale, 12 * scale, strength);
+    char *words = studio_repeat_words(repeat);
+    double left = x + 7 * scale, width = rect.size.width - 10 * scale;
+    cairo_set_source_rgba(cairo, ink->red, ink->green, ink->blue, box->is_enabled ? 0.75 : 0.4);
+    text_at(panel, cairo, box->id, left + 17 * scale, y + scale, width - 17 * scale, 11.5 * scale,
+            TEXT_BOLD);
+    text_at(panel, cairo, words, left, y + 15 * scale, width, 10.5 * scale, TEXT_PLAIN);
+    g_free(words);
+}
+
 static void draw_box(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index, const GdkRGBA *ink) {
     const StudioBox *box = studio_graph_box(panel->graph, index);
     graphene_rect_t rect = studio_graph_box_rect(panel, index);
@@ -139,10 +208,7 @@ static void draw_box(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index, co
         draw_second(cairo, &rect, colour, strength);
     }
     rounded(cairo, x, y, rect.size.width, rect.size.height, 7);
-    bool is_light_ink = ink->red > 0.5f;
-    double ground = is_light_ink ? 0.20 : 0.97;
-    cairo_set_source_rgb(cairo, ground, ground, ground + 0.01);
-    cairo_fill_preserve(cairo);
+    fill_ground(cairo, ink);
     cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2],
                           (is_chosen ? 0.45 : 0.2) * strength);
     cairo_fill_preserve(cairo);
@@ -158,11 +224,7 @@ static void draw_box(StudioGraphPanel *panel, cairo_t *cairo, uint32_t index, co
     bool is_target = panel->drag != DRAG_NOTHING && panel->is_dragged && panel->over == index;
     cairo_set_line_width(cairo, is_chosen || load != STUDIO_LOAD_FINE || is_target ? 2 : 1);
     cairo_stroke(cairo);
-    cairo_save(cairo);
-    cairo_translate(cairo, x + 7 * scale, y + 9 * scale);
-    cairo_set_source_rgba(cairo, colour[0], colour[1], colour[2], strength);
-    studio_component_icon(cairo, box->kind, 18 * scale);
-    cairo_restore(cairo);
+    draw_icon(cairo, box, x + 7 * scale, y + 9 * scale, 18 * scale, strength);
     draw_name(panel, cairo, box, &rect, ink);
     draw_count(panel, cairo, box, &rect, ink);
 }
@@ -262,6 +324,9 @@ void studio_graph_draw(StudioGraphPanel *panel, GtkSnapshot *snapshot) {
     }
     for (guint i = 0; i < panel->graph->boxes->len; i++) {
         draw_box(panel, cairo, i, &ink);
+    }
+    for (guint i = 0; i < panel->graph->repeats->len; i++) {
+        draw_repeat(panel, cairo, i, &ink);
     }
     if (panel->graph->boxes->len == 0) {
         cairo_set_source_rgba(cairo, ink.red, ink.green, ink.blue, 0.6);

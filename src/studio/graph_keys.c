@@ -46,8 +46,14 @@ static char *words_of_box(StudioGraphPanel *panel, uint32_t index) {
 static char *words_of_wire(StudioGraphPanel *panel, uint32_t index) {
     const StudioWire *wire = studio_graph_wire(panel->graph, index);
     const StudioBox *from = studio_graph_box(panel->graph, wire->from);
-    return g_strdup_printf("Link: %s, %s of %s", studio_graph_box(panel->graph, wire->to)->id,
-                           studio_link_words(wire->kind, from->kind), from->id);
+    char *again = wire->again == FR_NONE
+                      ? g_strdup("")
+                      : studio_repeat_words(studio_graph_repeat(panel->graph, wire->again));
+    char *words = g_strdup_printf(
+        "Link: %s%s%s, %s of %s", studio_graph_box(panel->graph, wire->to)->id,
+        again[0] == '\0' ? "" : " ", again, studio_link_words(wire->kind, from->kind), from->id);
+    g_free(again);
+    return words;
 }
 
 void studio_graph_say(StudioGraphPanel *panel) {

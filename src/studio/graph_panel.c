@@ -191,6 +191,13 @@ gboolean studio_graph_panel_where(StudioGraphPanel *panel, const char *name, gra
         *box = found == FR_NONE ? *box : studio_graph_box_rect(panel, found);
         return found != FR_NONE;
     }
+    for (guint i = 0; g_str_has_prefix(name, "again:") && i < panel->graph->repeats->len; i++) {
+        uint32_t first = studio_graph_repeat(panel->graph, i)->box;
+        if (strcmp(studio_graph_box(panel->graph, first)->id, name + strlen("again:")) == 0) {
+            *box = studio_graph_repeat_rect(panel, i);
+            return TRUE;
+        }
+    }
     for (guint tool = 1; g_str_has_prefix(name, "tool:") && tool < TOOL_END; tool++) {
         if (strcmp(studio_graph_tool_name(tool), name + strlen("tool:")) == 0) {
             *box = studio_graph_tool_rect(panel, tool);
@@ -279,9 +286,7 @@ static void studio_graph_panel_init(StudioGraphPanel *panel) {
                                            {"Remove", "win.remove"}};
     GtkWidget *widget = GTK_WIDGET(panel);
     panel->plant = panel->selected = panel->over = FR_NONE;
-    panel->graph = g_new0(StudioGraph, 1);
-    panel->graph->boxes = g_array_new(FALSE, FALSE, sizeof(StudioBox));
-    panel->graph->wires = g_array_new(FALSE, FALSE, sizeof(StudioWire));
+    panel->graph = studio_graph_empty();
     GMenu *menu = g_menu_new();
     for (size_t i = 0; i < G_N_ELEMENTS(items); i++) {
         g_menu_append(menu, items[i][0], items[i][1]);

@@ -19,5 +19,6 @@ void studio_graph_panel_show(StudioGraphPanel *panel, StudioDocument *document, 
 void studio_graph_panel_set_counts(StudioGraphPanel *panel, const GArray *counts);
 /// What a component may have and take, as in studio_load_of().
 void studio_graph_panel_set_budget(StudioGraphPanel *panel, StudioBudget budget);
-/// Where in the panel the box of a component is ("box:stem") or a tool ("tool:leaf").
+/// Where in the panel the box of a component is ("box:stem"), its first repeat at the end of a
+/// recursion ("again:stem") or a tool ("tool:leaf").
 gboolean studio_graph_panel_where(StudioGraphPanel *panel, const char *name, graphene_rect_t *box);

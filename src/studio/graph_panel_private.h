@@ -56,13 +56,14 @@ graphene_rect_t studio_graph_tool_rect(StudioGraphPanel *panel, guint kind);
 /// How large the graph is drawn: smaller where there is little room, larger where letters are.
 double studio_graph_scale(StudioGraphPanel *panel);
 graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t box);
+graphene_rect_t studio_graph_repeat_rect(StudioGraphPanel *panel, uint32_t repeat);
 /// What a tool is called.
 const char *studio_graph_tool_name(guint tool);
 /// Moves the graph so far that the box of an element is in sight.
 void studio_graph_reveal(StudioGraphPanel *panel, uint32_t element);
 /// The ends of a wire, and its two bends between them.
 void studio_graph_wire_course(StudioGraphPanel *panel, const StudioWire *wire, double at[4][2]);
-// What is under a point: FR_NONE where there is nothing.
+// What is under a point: FR_NONE where there is nothing. A repeat stands for its box.
 uint32_t studio_graph_box_under(StudioGraphPanel *panel, double x, double y);
 uint32_t studio_graph_tool_under(StudioGraphPanel *panel, double x, double y);
 uint32_t studio_graph_wire_under(StudioGraphPanel *panel, double x, double y);

@@ -45,15 +45,26 @@ double studio_graph_scale(StudioGraphPanel *panel) {
     return CLAMP(fit, 0.6 * most, most);
 }
 
-graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t index) {
-    const StudioBox *box = studio_graph_box(panel->graph, index);
+static graphene_rect_t rect_at(StudioGraphPanel *panel, double column, double row) {
     double scale = studio_graph_scale(panel);
     double whole = (panel->graph->columns * (BOX_WIDTH + GAP_X) - GAP_X) * scale;
     double left = whole < width_of(panel) - 2 * PAD ? 0.5 * (width_of(panel) - whole) : PAD;
-    return GRAPHENE_RECT_INIT(
-        (float)(left + box->column * (BOX_WIDTH + GAP_X) * scale + panel->shift_x),
-        (float)(PAD + box->row * (BOX_HEIGHT + GAP_Y) * scale + panel->shift_y),
-        (float)(BOX_WIDTH * scale), (float)(BOX_HEIGHT * scale));
+    return GRAPHENE_RECT_INIT((float)(left + column * (BOX_WIDTH + GAP_X) * scale + panel->shift_x),
+                              (float)(PAD + row * (BOX_HEIGHT + GAP_Y) * scale + panel->shift_y),
+                              (float)(BOX_WIDTH * scale), (float)(BOX_HEIGHT * scale));
+}
+
+graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t index) {
+    const StudioBox *box = studio_graph_box(panel->graph, index);
+    return rect_at(panel, box->column, box->row);
+}
+
+// A little smaller than a box.
+graphene_rect_t studio_graph_repeat_rect(StudioGraphPanel *panel, uint32_t index) {
+    const StudioRepeat *repeat = studio_graph_repeat(panel->graph, index);
+    graphene_rect_t rect = rect_at(panel, repeat->column, repeat->row);
+    graphene_rect_inset(&rect, 0.04f * rect.size.width, 0.08f * rect.size.height);
+    return rect;
 }
 
 // The least move that brings a stretch into a room.
@@ -84,6 +95,12 @@ uint32_t studio_graph_box_under(StudioGraphPanel *panel, double x, double y) {
             return i;
         }
     }
+    for (guint i = 0; y < studio_graph_tools_top(panel) && i < panel->graph->repeats->len; i++) {
+        graphene_rect_t rect = studio_graph_repeat_rect(panel, i);
+        if (is_within(&rect, x, y)) {
+            return studio_graph_repeat(panel->graph, i)->box;
+        }
+    }
     return FR_NONE;
 }
 
@@ -104,11 +121,12 @@ const Load *studio_graph_load(StudioGraphPanel *panel, const StudioBox *box) {
 // The ends of a wire, and its two bends.
 void studio_graph_wire_course(StudioGraphPanel *panel, const StudioWire *wire, double at[4][2]) {
     graphene_rect_t from = studio_graph_box_rect(panel, wire->from),
-                    to = studio_graph_box_rect(panel, wire->to);
+                    to = wire->again != FR_NONE ? studio_graph_repeat_rect(panel, wire->again)
+                                                : studio_graph_box_rect(panel, wire->to);
     double scale = studio_graph_scale(panel);
-    if (wire->from == wire->to || !wire->is_tree) { // out at the right and back from there
+    if (!wire->is_tree) { // out at the right and back from there
         double right = from.origin.x + from.size.width, other = to.origin.x + to.size.width;
-        double bulge = (wire->from == wire->to ? 16 : 34) * scale;
+        double bulge = 34 * scale;
         at[0][0] = right, at[0][1] = from.origin.y + 0.72 * from.size.height;
         at[3][0] = other, at[3][1] = to.origin.y + 0.28 * to.size.height;
         at[1][0] = right + bulge, at[1][1] = at[0][1];

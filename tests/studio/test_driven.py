@@ -382,6 +382,21 @@ def test_escape(run):
     assert studio.state()["digest"] == before["digest"]
 
 
+def test_repeat(run):
+    """a recursion ends at its first component once more, which stands for it"""
+    studio = run.studio
+    for name, first, other in (("chestnut-recursive", "wood", "shoot"), ("figure2", "D", "B")):
+        studio.ask(f"open {SOURCE / 'examples' / name}.frond")
+        studio.wait()
+        studio.click(studio.middle("box:" + other))
+        assert studio.state()["selected"].endswith(":" + other)
+        assert studio.where("again:" + first)[1] > studio.where("box:" + first)[1]
+        studio.click(studio.middle("again:" + first))
+        assert studio.state()["selected"].endswith(":" + first), studio.state()
+        run.picture("recursion-" + name)
+        assert studio.state()["saved"]
+
+
 def test_preset(run):
     """a part of a plant is kept as a preset, and put in again as one step"""
     studio = run.studio
@@ -940,7 +955,7 @@ def test_killed(run):
 
 
 
-TESTS = [test_welcome, test_examples, test_broken, test_lsystem, test_grove, test_levels, test_arrange, test_rows, test_export_one,
+TESTS = [test_welcome, test_repeat, test_examples, test_broken, test_lsystem, test_grove, test_levels, test_arrange, test_rows, test_export_one,
          test_light, test_lamps, test_patch, test_sketch,
          test_device, test_flower, test_link, test_escape, test_preset, test_slider, test_material, test_keys, test_wind, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
