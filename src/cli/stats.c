@@ -149,6 +149,7 @@ static void set_steps(json_t *stats, const CliSession *session, const FrScene *s
         return;
     }
     set_count(stats, "steps", scene->steps->len);
+    const FrSceneStep *last = NULL; // of those that grew buds: L-systems may grow longer
     json_t *steps = json_array();
     for (guint i = 0; i < scene->steps->len; i++) {
         const FrSceneStep *step = &g_array_index(scene->steps, FrSceneStep, i);
@@ -160,11 +161,11 @@ static void set_steps(json_t *stats, const CliSession *session, const FrScene *s
         if (step->grows_buds) {
             set_buds(row, step);
             set_stand_of_step(row, session, step->step);
+            last = step;
         }
         json_array_append_new(steps, row);
     }
-    const FrSceneStep *last = &g_array_index(scene->steps, FrSceneStep, scene->steps->len - 1);
-    if (last->grows_buds) {
+    if (last != NULL) {
         set_count(stats, "active_buds", last->active_buds);
         set_living(stats, scene);
     }

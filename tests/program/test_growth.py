@@ -107,6 +107,9 @@ def resumed_among(folder):
         tap.run("build", document, "-q", "--steps", steps, "--checkpoint", saved, *resume)
     resumed = tap.statistics(document, "--resume", saved)
     assert (resumed["digest"], resumed["by_production"]) == (whole["digest"], whole["by_production"])
+    longer = tap.statistics(document, "--set", "scene.growth.steps=5")
+    assert len(longer["per_step"]) > 5 and longer["living"] == 1, longer
+    assert longer["active_buds"] == longer["per_step"][4]["active_buds"]
     young = tap.statistics(document, "--steps", 4)
     assert young["by_production"]["q"] == whole["by_production"]["q"] > 20, young["by_production"]
     assert young["by_production"]["p1"] < whole["by_production"]["p1"], young["by_production"]
