@@ -87,6 +87,10 @@ FR_API FR_MUST_USE FrStatus fr_voxels_check(const FrVoxels *voxels, uint64_t mor
 /// a brick beyond `end`. Some may be solid already where it fails.
 FR_API FR_MUST_USE FrStatus fr_voxels_add_triangles(FrVoxels *voxels, const FrVoxelSurface *surface,
                                                     const double end[3], const FrContext *context);
+/// True if a triangle touches a cell of this width, which fr_voxels_add_triangles() then makes
+/// solid.
+FR_API bool fr_voxels_touches(const FrVoxelSurface *surface, const double origin[3], double width,
+                              FrCell cell);
 /// Makes every cell solid whose middle a closed surface of triangles encloses, up to the end of
 /// the brick of `end`. What is deep inside costs no memory. Some may be solid already where it
 /// fails.

@@ -115,15 +115,18 @@ static FrStatus run(int count, char **arguments, CliOptions *options) {
     }
     const CliVerb *verb = NULL;
     if (arguments[0][0] != '-') {
-        const char *name = strcmp(arguments[0], "help") == 0 ? NULL : arguments[0];
-        verb = name == NULL ? NULL : find_verb(name);
-        options->wants_help = name == NULL;
-        if (verb == NULL && name != NULL) {
-            report_unknown_verb(name);
-            return FR_ERR_USAGE;
+        options->wants_help = strcmp(arguments[0], "help") == 0;
+        bool asks_for_verb = options->wants_help && count > 1 && arguments[1][0] != '-';
+        if (!options->wants_help || asks_for_verb) {
+            const char *name = arguments[asks_for_verb];
+            verb = find_verb(name);
+            if (verb == NULL) {
+                report_unknown_verb(name);
+                return FR_ERR_USAGE;
+            }
         }
-        arguments++;
-        count--;
+        arguments += 1 + asks_for_verb;
+        count -= 1 + asks_for_verb;
     }
     if (!cli_options_parse(options, verb, count, arguments)) {
         return FR_ERR_USAGE;

@@ -6,6 +6,7 @@
 #include "growth/propose.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void world_of(const FrGrownPlant *plant, vec3s at, double world[3]) {
@@ -40,6 +41,23 @@ static bool is_related(const FrGrowth *growth, const FrProposal *proposal, uint3
     }
     FrOwner of = growth->owners[owner];
     return of.plant == proposal->plant && of.bearer == proposal->node;
+}
+
+/// True for a cell of what a plant stands on, which its first internode rises from.
+static bool is_footing(const FrGrowth *growth, const FrProposal *proposal, FrCell cell) {
+    const FrGrownPlant *plant = &growth->plants[proposal->plant];
+    const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
+    int reach = params->keeps_off == FR_KEEPS_OFF_INTERNODE ? 1 + (int)params->box / 2 : 1;
+    FrCell foot;
+    if (proposal->node != FR_NONE || !fr_voxels_cell(growth->voxels, plant->seed.at, &foot) ||
+        fr_voxels_owner(growth->voxels, foot) != FR_VOXEL_SOLID) {
+        return false;
+    }
+    bool is_near = true;
+    for (int axis = 0; axis < 3; axis++) {
+        is_near &= abs(cell.at[axis] - foot.at[axis]) <= reach;
+    }
+    return is_near;
 }
 
 typedef enum Question { IS_STANDING, IS_CLAIMED } Question;
@@ -87,7 +105,8 @@ static inline bool cell_blocks(const Asked *asked, const FrBrick *brick, FrCell 
     uint32_t owner = brick->solid[layer] >> bit & 1
                          ? (brick->ground[layer] >> bit & 1 ? FR_VOXEL_GROUND : FR_VOXEL_SOLID)
                          : *fr_voxels_at(brick, cell);
-    return !is_related(asked->growth, asked->proposal, owner);
+    return !is_related(asked->growth, asked->proposal, owner) &&
+           !(owner == FR_VOXEL_SOLID && is_footing(asked->growth, asked->proposal, cell));
 }
 
 /// Cells low … high of the brick that begins at `first`, numbered within it.

@@ -276,11 +276,23 @@ static void begin_plant(FrGrowth *growth, FrGrownPlant *plant) {
     bud->state = FR_LIVE_GROWING;
 }
 
-static bool has_place(const FrGrowth *growth, const FrSeed *seed) {
-    FrCell cell;
-    return fr_seed_is_in_arena(&growth->params, seed) &&
-           fr_voxels_cell(growth->voxels, seed->at, &cell) &&
-           fr_voxels_owner(growth->voxels, cell) != FR_VOXEL_SOLID;
+/// Which seeds have no place among the obstacles that stand. The caller frees it.
+static bool *find_left_out(const FrGrowth *growth, const FrSeed *seeds, uint32_t count) {
+    FrGrowthObstacle *obstacles = g_new(FrGrowthObstacle, growth->obstacle_count + 1u);
+    for (uint32_t i = 0; i < growth->obstacle_count; i++) {
+        const FrGrownObstacle *from = &growth->obstacles[i];
+        obstacles[i] = (FrGrowthObstacle){.positions = from->positions,
+                                          .vertex_count = from->vertex_count,
+                                          .indices = from->indices,
+                                          .index_count = from->index_count,
+                                          .is_ground = from->is_ground};
+    }
+    const FrGrowthSetup setup = {
+        .params = growth->params, .obstacles = obstacles, .obstacle_count = growth->obstacle_count};
+    bool *is_left_out =
+        fr_seeds_find_left_out(&setup, growth->voxels->cell, growth->up, seeds, count);
+    g_free(obstacles);
+    return is_left_out;
 }
 
 static FrStatus check_plants(uint64_t count, const FrContext *context) {
@@ -296,7 +308,7 @@ FrStatus fr_growth_check(const FrGrowthSetup *setup, const FrSeed *seeds, uint32
     }
     if (status == FR_OK) {
         tell_wide_cells(setup, cell_of(setup), context);
-        fr_seeds_check(setup, up_of(&setup->params), seeds, count, context);
+        fr_seeds_check(setup, cell_of(setup), up_of(&setup->params), seeds, count, context);
     }
     return status;
 }
@@ -322,13 +334,14 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     memset(growth->plants + first, 0, count * sizeof *growth->plants);
     growth->plant_count += count;
     FrMisplaced left_out = {0}, outside = {0};
+    bool *is_left_out = find_left_out(growth, seeds, count);
     GArray *particles = g_array_new(FALSE, FALSE, sizeof(FrParticle));
     for (uint32_t i = 0; i < count && status == FR_OK; i++) {
         FrGrownPlant *plant = &growth->plants[first + i];
         FR_ASSERT(seeds[i].species < growth->species_count);
         plant->seed = seeds[i];
         plant->seed.span = (FrSpan){0};
-        plant->is_left_out = !has_place(growth, &seeds[i]);
+        plant->is_left_out = is_left_out[i];
         if (plant->is_left_out) {
             fr_misplaced_note(&left_out, &seeds[i]);
             continue;
@@ -344,6 +357,7 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
                                          particles->len, context);
     }
     g_array_free(particles, TRUE);
+    g_free(is_left_out);
     if (status != FR_OK) {
         keep_plants(growth, first);
     } else {

@@ -61,36 +61,109 @@ void fr_misplaced_tell_outside(const FrMisplaced *outside, uint32_t count,
     }
 }
 
-/// Which seeds stand in an obstacle. The caller frees it.
-static bool *find_buried(const FrGrowthSetup *setup, const FrSeed *seeds, uint32_t count) {
-    bool *is_buried = g_new0(bool, count + 1u);
-    FrPoint3 *places = g_new(FrPoint3, count + 1u);
+/// False on the upper border of the arena, where nothing can rise.
+static bool has_cells_above(const FrGrowthParams *params, vec3s up, double width,
+                            const FrSeed *seed) {
+    FrSeed risen = *seed;
+    for (int axis = 0; axis < 3; axis++) {
+        risen.at[axis] += width * (double)up.raw[axis];
+    }
+    return fr_seed_is_in_arena(params, &risen);
+}
+
+enum { CELLS = 3 }; // of a foot: the one of the seed, and those above it
+
+/// Where a seed is looked at: a little above its place, as it may stand on an obstacle, and in the
+/// cells above.
+static FrPoint3 place_of(const FrSeed *seed, vec3s up, double cell, int k) {
+    double above = cell * (k == 0 ? 0.1 : k);
+    FrPoint3 place;
+    for (int axis = 0; axis < 3; axis++) {
+        place.at[axis] = seed->at[axis] + above * (double)up.raw[axis];
+    }
+    return place;
+}
+
+/// The cell of a place; false if it is outside of all.
+static bool cell_at(const FrGrowthParams *params, double width, const double at[3], FrCell *cell) {
+    for (int axis = 0; axis < 3; axis++) {
+        double where = (at[axis] - (double)params->min.raw[axis]) / width;
+        if (!(where >= 0 && where < FR_VOXELS_WIDTH)) {
+            return false;
+        }
+        cell->at[axis] = (int16_t)where;
+    }
+    return true;
+}
+
+/// Adds the cells of feet that an obstacle takes.
+static void note_taken(const FrGrowthSetup *setup, double width, const FrGrowthObstacle *obstacle,
+                       const FrPoint3 *places, uint32_t count, bool *is_taken) {
+    const FrVoxelSurface surface = {obstacle->positions, obstacle->indices, obstacle->index_count,
+                                    false, obstacle->span};
+    const double origin[3] = {(double)setup->params.min.x, (double)setup->params.min.y,
+                              (double)setup->params.min.z};
+    vec3s low = {{INFINITY, INFINITY, INFINITY}}, high = {{-INFINITY, -INFINITY, -INFINITY}};
+    for (uint32_t i = 0; i < obstacle->vertex_count; i++) {
+        low = glms_vec3_minv(low, obstacle->positions[i]);
+        high = glms_vec3_maxv(high, obstacle->positions[i]);
+    }
     for (uint32_t i = 0; i < count; i++) {
-        places[i] = (FrPoint3){{seeds[i].at[0], seeds[i].at[1], seeds[i].at[2]}};
+        bool is_near = !is_taken[i];
+        for (int axis = 0; axis < 3; axis++) {
+            is_near = is_near && places[i].at[axis] >= (double)low.raw[axis] - 2 * width &&
+                      places[i].at[axis] <= (double)high.raw[axis] + 2 * width;
+        }
+        FrCell cell;
+        is_taken[i] |= is_near && cell_at(&setup->params, width, places[i].at, &cell) &&
+                       fr_voxels_touches(&surface, origin, width, cell);
+    }
+}
+
+bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, double width, vec3s up,
+                             const FrSeed *seeds, uint32_t count) {
+    size_t places = (size_t)count * CELLS;
+    bool *is_held = g_new0(bool, places + 1), *is_taken = g_new0(bool, places + 1);
+    FrPoint3 *place = g_new(FrPoint3, places + 1);
+    for (size_t i = 0; i < places; i++) {
+        place[i] = place_of(&seeds[i / CELLS], up, width, (int)(i % CELLS));
     }
     for (uint32_t i = 0; i < setup->obstacle_count; i++) {
         const FrGrowthObstacle *obstacle = &setup->obstacles[i];
         if (!obstacle->is_ground) {
-            fr_solid_holds(obstacle->positions, obstacle->indices, obstacle->index_count, places,
-                           count, is_buried);
+            fr_solid_holds(obstacle->positions, obstacle->indices, obstacle->index_count, place,
+                           (uint32_t)places, is_held);
+            note_taken(setup, width, obstacle, place, (uint32_t)places, is_taken);
         }
     }
-    g_free(places);
-    return is_buried;
+    bool *is_left_out = g_new(bool, (size_t)count + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        bool is_blocked = true;
+        for (size_t k = (size_t)i * CELLS; k < ((size_t)i + 1) * CELLS; k++) {
+            is_blocked &= is_held[k] || is_taken[k];
+        }
+        is_left_out[i] = is_held[(size_t)i * CELLS] || is_blocked ||
+                         !fr_seed_is_in_arena(&setup->params, &seeds[i]) ||
+                         !has_cells_above(&setup->params, up, width, &seeds[i]);
+    }
+    g_free(is_held);
+    g_free(is_taken);
+    g_free(place);
+    return is_left_out;
 }
 
-void fr_seeds_check(const FrGrowthSetup *setup, vec3s up, const FrSeed *seeds, uint32_t count,
-                    const FrContext *context) {
+void fr_seeds_check(const FrGrowthSetup *setup, double width, vec3s up, const FrSeed *seeds,
+                    uint32_t count, const FrContext *context) {
     bool *comes_within = g_new(bool, setup->species_count + 1u);
     for (uint32_t i = 0; i < setup->species_count; i++) {
         FrReadySpecies species = fr_species_make_ready(&setup->species[i]);
         comes_within[i] = fr_species_comes_within(&setup->params, &species, up);
         fr_species_clear_ready(&species);
     }
-    bool *is_buried = find_buried(setup, seeds, count);
+    bool *is_left_out = fr_seeds_find_left_out(setup, width, up, seeds, count);
     FrMisplaced left_out = {0}, outside = {0};
     for (uint32_t i = 0; i < count; i++) {
-        if (is_buried[i] || !fr_seed_is_in_arena(&setup->params, &seeds[i])) {
+        if (is_left_out[i]) {
             fr_misplaced_note(&left_out, &seeds[i]);
         } else if (!comes_within[seeds[i].species]) {
             fr_misplaced_note(&outside, &seeds[i]);
@@ -98,6 +171,6 @@ void fr_seeds_check(const FrGrowthSetup *setup, vec3s up, const FrSeed *seeds, u
     }
     fr_misplaced_tell_left_out(&left_out, count, left_out.count == count, context);
     fr_misplaced_tell_outside(&outside, count, context);
-    g_free(is_buried);
+    g_free(is_left_out);
     g_free(comes_within);
 }

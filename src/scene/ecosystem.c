@@ -193,6 +193,7 @@ static FrStatus add_surroundings(World *world, const FrScene *scene, const FrHil
                                  const FrContext *context) {
     const vec3s box[2] = {world->setup.params.min, world->setup.params.max};
     world->solids = fr_solids_new();
+    fr_solids_tell_open(scene->surroundings, context);
     return fr_solids_add_surroundings(&world->solids, scene, hills, box, context);
 }
 

@@ -158,6 +158,17 @@ FrStatus fr_solids_add_surroundings(FrSolids *solids, const FrScene *scene, cons
     return status;
 }
 
+void fr_solids_tell_open(const FrSurroundings *surroundings, const FrContext *context) {
+    for (guint i = 0; i < surroundings->obstacles->len; i++) {
+        const FrObstacle *obstacle = g_ptr_array_index(surroundings->obstacles, i);
+        if (obstacle->mesh != NULL && !obstacle->mesh->is_closed) {
+            fr_diags_add(context->diags, FR_WARNING, "open-obstacle", obstacle->span,
+                         "'%s' is not closed: where it is open only its surface is in the way",
+                         obstacle->file);
+        }
+    }
+}
+
 FrDigest fr_solids_digest(const FrSolids *solids) {
     FrDigest digest = 0;
     for (guint i = 0; i < solids->all->len; i++) {

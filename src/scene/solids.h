@@ -19,6 +19,8 @@ void fr_solids_add_level(FrSolids *solids, const vec3s box[2]);
 FR_MUST_USE FrStatus fr_solids_add_surroundings(FrSolids *solids, const FrScene *scene,
                                                 const FrHills *hills, const vec3s box[2],
                                                 const FrContext *context);
+/// Tells obstacles that enclose nothing because their meshes are open.
+void fr_solids_tell_open(const FrSurroundings *surroundings, const FrContext *context);
 /// A plant where it stands.
 FR_MUST_USE FrStatus fr_solids_add_plant(FrSolids *solids, const FrPlant *plant,
                                          const FrStand *stand, const FrContext *context);

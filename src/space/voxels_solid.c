@@ -155,19 +155,46 @@ static FrStatus add_triangle(FrVoxels *voxels, const Triangle *triangle,
     return FR_OK;
 }
 
+/// In cells.
+static void corners_of(const FrVoxelSurface *surface, uint32_t first, const double origin[3],
+                       double width, double corner[3][3]) {
+    for (uint32_t c = 0; c < 3; c++) {
+        for (int k = 0; k < 3; k++) {
+            double at = (double)surface->positions[surface->indices[first + c]].raw[k];
+            corner[c][k] = (at - origin[k]) / width;
+        }
+    }
+}
+
 FrStatus fr_voxels_add_triangles(FrVoxels *voxels, const FrVoxelSurface *surface,
                                  const double end[3], const FrContext *context) {
     FrStatus status = FR_OK;
     for (uint32_t i = 0; i + 2 < surface->index_count && status == FR_OK; i += 3) {
         double corner[3][3];
-        for (uint32_t c = 0; c < 3; c++) {
-            for (int k = 0; k < 3; k++) {
-                double at = (double)surface->positions[surface->indices[i + c]].raw[k];
-                corner[c][k] = (at - voxels->origin[k]) / voxels->cell;
-            }
-        }
+        corners_of(surface, i, voxels->origin, voxels->cell, corner);
         Triangle triangle = triangle_of((const double(*)[3])corner);
         status = add_triangle(voxels, &triangle, surface, end, context);
     }
     return status;
+}
+
+bool fr_voxels_touches(const FrVoxelSurface *surface, const double origin[3], double width,
+                       FrCell cell) {
+    double middle[3] = {cell.at[0] + 0.5, cell.at[1] + 0.5, cell.at[2] + 0.5};
+    bool is_touched = false;
+    for (uint32_t i = 0; i + 2 < surface->index_count && !is_touched; i += 3) {
+        double corner[3][3];
+        corners_of(surface, i, origin, width, corner);
+        bool is_near = true;
+        for (int k = 0; k < 3 && is_near; k++) {
+            double low = fmin(corner[0][k], fmin(corner[1][k], corner[2][k]));
+            double high = fmax(corner[0][k], fmax(corner[1][k], corner[2][k]));
+            is_near = low <= middle[k] + HALF && high >= middle[k] - HALF;
+        }
+        if (is_near) {
+            Triangle triangle = triangle_of((const double(*)[3])corner);
+            is_touched = touches(&triangle, middle, HALF);
+        }
+    }
+    return is_touched;
 }

@@ -17,6 +17,8 @@ static const Command commands[] = {
     {"", 2, "", "usage: frond VERB*build*render*"},
     {"-h", 0, "usage: frond VERB*build*render*check*info*presets*new*", ""},
     {"help", 0, "usage: frond VERB*", ""},
+    {"help check", 0, "usage: frond check *", ""},
+    {"help biuld", 2, "", "frond: there is no verb 'biuld'; did you mean 'build'?*"},
     {"build -h", 0, "usage: frond build DOC*--leaves*.glb .gltf*", ""},
     {"info whatever --help", 0, "usage: frond info*", ""},
     {"--version", 0, "frond 0.*", ""},

@@ -206,6 +206,51 @@ def told_at_places(folder):
         assert "wrong.frond:6:6: warning: 2 of 3" in said and "[seed-place]" in said, said
 
 
+def open_obstacles(folder):
+    """A mesh that encloses nothing is told where something grows."""
+    (folder / "sheet.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    document = folder / "open.frond"
+    document.write_text("""<frond version="1">
+  <plant id="oak"><species/></plant>
+  <scene>
+    <growth steps="1" min="-4, -4, 0" max="4, 4, 4"/>
+    <place plant="oak"/>
+    <obstacle shape="mesh" file="sheet.obj" at="2, 0, 1"/>
+  </scene>
+</frond>
+""")
+    for command in ("build", "check"):
+        said = tap.run(command, document).stderr
+        assert said.count("[open-obstacle]") == 1 and "open.frond:6:6: warning" in said, said
+
+
+def on_obstacles(folder):
+    """What stands on an obstacle grows; in it, or close beside it, it is told."""
+    document = folder / "planter.frond"
+
+    def stands(at, living, more=""):
+        document.write_text(f"""<frond version="1">
+  <plant id="tree"><species model="open" step="0.3"{more}/></plant>
+  <scene>
+    <growth steps="4" min="-8, -8, -1" max="8, 8, 8" cell="0.05"/>
+    <obstacle size="1, 1, 1"/>
+    <place plant="tree" at="{at}"/>
+  </scene>
+</frond>
+""")
+        said = [tap.run("check", document).stderr, tap.run("build", document).stderr]
+        assert all(("[seed-place]" in text) == (living == 0) for text in said), (at, said)
+        grown = tap.statistics(document)
+        assert grown["living"] == living, (at, grown["living"])
+        assert living == 0 or grown["nodes"] >= 4, (at, grown)
+
+    for at in ("0, 0, 1", "0.3, 0.2, 1.01", "0.3, 0.2, 1.06", "0, 0, 0.999"):
+        stands(at, 1)
+    stands("0, 0, 1", 1, ' keeps-off="internode"')
+    for at in ("0, 0, 0.9", "0, 0, 0.5", "0.52, 0, 0.3", "0, 0, 8"):
+        stands(at, 0)
+
+
 def too_wide(folder):
     """Small plants in a wide arena, whose cells are wide too, are told before they fail to grow."""
     document = folder / "wide.frond"
@@ -262,6 +307,8 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
          ("/program/growth/the living and their wood are counted", thinning),
          ("/program/growth/a state with more steps than asked for is told", resumed_later),
          ("/program/growth/seeds that cannot grow are told at their places", told_at_places),
+         ("/program/growth/what stands on an obstacle grows", on_obstacles),
+         ("/program/growth/obstacles that are not closed are told", open_obstacles),
          ("/program/growth/cells that are too wide for a species are told", too_wide),
          ("/program/growth/checking does not grow", checked_soon)]
 

@@ -71,6 +71,7 @@ def test_pick(run):
     studio.wait()
     assert studio.state()["selected"] == "", studio.state()
     studio.click(studio.middle("box:root"))
+    studio.wait()
     assert studio.state()["selected"].endswith("camera:root"), studio.state()
 
 
@@ -79,6 +80,7 @@ def test_handles(run):
     studio = run.studio
     studio.click(studio.middle("tool-move"))
     studio.click(studio.point(1, 0, 0))
+    studio.wait()
     assert studio.state()["selected"].endswith("place#1"), studio.state()
     foot, goal = studio.point(1, 0, 0), studio.point(1, -1, 0)
     studio.drag(foot, goal)
