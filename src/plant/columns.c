@@ -132,6 +132,9 @@ void fr_columns_extend(void *table, const FrColumns *columns, uint32_t count) {
 
 void fr_columns_fill(void *table, const FrColumns *columns, uint32_t first, uint32_t count,
                      uint32_t written) {
+    if (count == 0) {
+        return; // an empty table has no columns yet
+    }
     for (size_t c = 0; c < columns->count; c++) {
         if ((written >> c & 1) == 0) {
             fill_rows(fr_column_data(table, &columns->columns[c]), &columns->columns[c], first,
