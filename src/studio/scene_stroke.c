@@ -265,6 +265,9 @@ void studio_scene_stroke_begin(StudioSceneTool *tool, const double pixel[2]) {
 }
 
 void studio_scene_stroke_go(StudioSceneTool *tool, const double pixel[2]) {
+    if (studio_document_is_abandoned(tool->window->document)) {
+        return;
+    }
     if (tool->held != STUDIO_GRIP_NONE) {
         drag_handle(tool, pixel, tool->is_stepped);
     } else if (tool->taken != NULL) {
@@ -276,7 +279,9 @@ void studio_scene_stroke_go(StudioSceneTool *tool, const double pixel[2]) {
 }
 
 void studio_scene_stroke_end(StudioSceneTool *tool) {
-    if (tool->held != STUDIO_GRIP_NONE) {
+    if (studio_document_is_abandoned(tool->window->document)) {
+        tool->held = STUDIO_GRIP_NONE;
+    } else if (tool->held != STUDIO_GRIP_NONE) {
         drop_handle(tool);
     } else if (tool->line != NULL && tool->tool == SCENE_ROAD) {
         end_road(tool);

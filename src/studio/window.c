@@ -13,20 +13,35 @@ G_DEFINE_TYPE(StudioWindow, studio_window, ADW_TYPE_APPLICATION_WINDOW)
 
 // ---- what is shown -----------------------------------------------------------------------------
 
-void studio_window_say(StudioWindow *window, const char *format, ...) {
-    va_list list;
-    va_start(list, format);
-    char *text = g_strdup_vprintf(format, list);
-    va_end(list);
+static void say(StudioWindow *window, const char *text, bool can_undo) {
     char *escaped = g_markup_escape_text(text, -1);
     AdwToast *toast = adw_toast_new(escaped);
-    adw_toast_set_timeout(toast, 4);
+    adw_toast_set_timeout(toast, can_undo ? 8 : 4);
+    if (can_undo) {
+        adw_toast_set_button_label(toast, "_Undo");
+        adw_toast_set_action_name(toast, "win.undo");
+    }
     if (window->toast != NULL) { // the newest is shown at once, and what is said again only once
         adw_toast_dismiss(window->toast);
     }
     g_set_weak_pointer(&window->toast, toast);
     adw_toast_overlay_add_toast(window->toasts, toast);
     g_free(escaped);
+}
+
+void studio_window_say(StudioWindow *window, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    char *text = g_strdup_vprintf(format, list);
+    va_end(list);
+    say(window, text, false);
+    g_free(text);
+}
+
+void studio_window_say_removed(StudioWindow *window, const char *what, uint32_t users) {
+    char *text = g_strdup_printf("Removed %s, which %u %s", what, users,
+                                 users == 1 ? "place still uses" : "places still use");
+    say(window, text, true);
     g_free(text);
 }
 
@@ -368,6 +383,7 @@ StudioWindow *studio_window_new(AdwApplication *application, StudioSettings *set
     studio_window_add_actions(window);
     studio_window_add_preset_actions(window);
     studio_wind_add_actions(window);
+    studio_window_add_cancel(window);
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
     gtk_box_append(GTK_BOX(box), studio_window_make_header(window));
     gtk_box_append(GTK_BOX(box), GTK_WIDGET(window->toasts));

@@ -101,6 +101,8 @@ void studio_window_add_preset_actions(StudioWindow *window);
 
 /// Shows an element in the inspector, the graph and the list; FR_NONE: nothing.
 void studio_window_select(StudioWindow *window, uint32_t element);
+/// Says that something is gone which others name, and offers to undo that.
+void studio_window_say_removed(StudioWindow *window, const char *what, uint32_t users);
 /// Of panels that have a signal "said".
 void studio_window_on_said(GObject *panel, const char *text, StudioWindow *window);
 uint32_t studio_window_selected(const StudioWindow *window);
@@ -121,6 +123,11 @@ void studio_window_reveal(GtkWidget *revealer, bool is_shown);
 StudioBudget studio_window_budget(StudioWindow *window);
 GtkWidget *studio_window_make_header(StudioWindow *window);
 GtkWidget *studio_window_make_panes(StudioWindow *window);
+
+// window_cancel.c
+
+/// Lets Escape take back what a pressed pointer does.
+void studio_window_add_cancel(StudioWindow *window);
 
 // window_sketch.c
 

@@ -169,13 +169,16 @@ class Studio:
         self.pointer("click", 1)
         time.sleep(0.05)
 
-    def drag(self, begin, end, button=1, steps=8):
-        """In steps: one jump may be no drag."""
+    def drag(self, begin, end, button=1, steps=8, is_cancelled=False):
+        """In steps: one jump may be no drag. Escape may cancel it half way."""
         self.go(begin)
         self.pointer("mousedown", button)
         for step in range(1, steps + 1):
             self.go([a + (b - a) * step / steps for a, b in zip(begin, end)])
             time.sleep(0.02)
+            if is_cancelled and step == (steps + 1) // 2:
+                self.wait()  # the change is seen
+                self.pointer("key", "Escape")
         self.pointer("mouseup", button)
         time.sleep(0.05)
 

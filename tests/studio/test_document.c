@@ -92,6 +92,33 @@ static void test_drag(void) {
     studio_document_free(document);
 }
 
+static void test_abandon(void) {
+    StudioDocument *document = small_document();
+    uint32_t stem = element_of(document, "stem");
+    g_assert_false(studio_document_abandon(document)); // nothing is pressed
+    studio_set(document, stem, "length", "2", true);
+    char *before = g_strdup(text_of(document));
+    studio_document_hold(document);
+    studio_set(document, stem, "length", "3", true); // goes on with the step before
+    studio_set(document, stem, "radius", "0.3", true);
+    g_assert_cmpuint(studio_document_steps(document), ==, 2);
+    g_assert_true(studio_document_abandon(document));
+    g_assert_cmpstr(text_of(document), ==, before);
+    g_assert_cmpuint(studio_document_steps(document), ==, 1);
+    g_assert_null(studio_document_redo_name(document));
+    g_assert_false(studio_set(document, stem, "length", "4", true)); // the rest of the drag
+    studio_document_release(document);
+    g_assert_cmpstr(text_of(document), ==, before);
+    g_assert_true(studio_set(document, stem, "length", "5", true));
+    studio_document_undo(document);
+    g_assert_cmpstr(text_of(document), ==, before);
+    studio_document_undo(document);
+    g_assert_cmpstr(text_of(document), ==, small);
+    g_assert_true(studio_document_is_saved(document));
+    g_free(before);
+    studio_document_free(document);
+}
+
 static void test_drag_back(void) {
     StudioDocument *document = small_document();
     studio_set(document, element_of(document, "stem"), "length", "2", true);
@@ -436,6 +463,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/document/nothing is added to no plant", test_add_to_no_plant);
     g_test_add_func("/studio/document/steps have names", test_names);
     g_test_add_func("/studio/document/a drag is one step", test_drag);
+    g_test_add_func("/studio/document/what a pointer did is taken back and the rest ignored",
+                    test_abandon);
     g_test_add_func("/studio/document/a drag back to its start is none", test_drag_back);
     g_test_add_func("/studio/document/a default is not written", test_default);
     g_test_add_func("/studio/document/components come with their links", test_components);

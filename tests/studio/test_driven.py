@@ -236,6 +236,9 @@ def test_arrange(run):
     studio.wait()
     assert studio.text(run.home).count("<place") == 3
     studio.pointer("key", "b")
+    now = studio.state()
+    studio.drag(studio.point(-2, -2, 0), studio.point(1, -2, 0), is_cancelled=True)
+    is_left(studio, now)
     studio.drag(studio.point(-2, -2, 0), studio.point(1, -2, 0))
     studio.wait()
     painted = studio.text(run.home).count("<place")
@@ -245,6 +248,9 @@ def test_arrange(run):
     studio.wait()
     assert studio.text(run.home).count("<place") < painted
     studio.pointer("key", "r")
+    now = studio.state()
+    studio.drag(studio.point(-2, 0.8, 0), studio.point(2, 1, 0), is_cancelled=True)
+    is_left(studio, now)
     studio.drag(studio.point(-2, 0.8, 0), studio.point(2, 1, 0))
     studio.wait()
     assert studio.text(run.home).count("<obstacle") == 2 and studio.state()["problems"] == 0
@@ -355,6 +361,13 @@ def test_link(run):
     run.picture("flower-linked")
 
 
+def is_left(studio, before):
+    """Nothing is left of a drag that was cancelled."""
+    studio.wait()
+    after = studio.state()
+    assert after["digest"] == before["digest"] and after["steps"] == before["steps"], after
+
+
 def test_escape(run):
     """a component that is dragged goes back by Escape, and names that are taken are refused"""
     studio = run.studio
@@ -446,6 +459,9 @@ def test_slider(run):
     before = studio.state()
     x, y, width, height = studio.where("length-scale")
     share = 0.6 / 2  # of the range, 0 to 2 m
+    studio.drag([x + 8 + share * (width - 16), y + height / 2], [x + 0.8 * width, y + height / 2],
+                is_cancelled=True)
+    is_left(studio, before)
     studio.drag([x + 8 + share * (width - 16), y + height / 2], [x + 0.8 * width, y + height / 2])
     studio.wait()
     after = studio.state()
@@ -487,6 +503,12 @@ def test_material(run):
     studio.pointer("key", "Return")
     studio.wait()
     assert 'material="rind"' in studio.text(run.home) and studio.state()["problems"] == 0
+    whole = studio.state()["digest"]
+    studio.ask("do remove")
+    assert studio.ask("said") == "Removed rind, which 1 place still uses", studio.ask("said")
+    run.picture("flower-removed")
+    studio.ask("do undo")
+    assert studio.state()["digest"] == whole
     studio.ask("do set::rind.picture=no-such.png")
     studio.wait()
     assert studio.state()["problems"] == 1, "a picture that is not there is not missed"
@@ -546,6 +568,9 @@ def test_keys(run):
     assert studio.state()["steps"] == before["steps"] + 2, "a drag is one step"
     set_at = re.search('length="keys 0,[0-9.]+ ([0-9.]+),[0-9.]+"', studio.text(run.home))
     assert set_at is not None and 4.5 < float(set_at.group(1)) < 5.5, studio.text(run.home)
+    now = studio.state()
+    studio.drag(studio.middle("keys", 0.5), studio.middle("keys", 0.7), is_cancelled=True)
+    is_left(studio, now)
     studio.drag(studio.middle("keys", 0.5), studio.middle("keys", 0.7))
     studio.click(studio.middle("The key before"))
     studio.click(studio.middle("The next key"))
@@ -710,6 +735,8 @@ def test_patch(run):
     studio.wait()
     before = studio.state()
     corner = studio.point(0.2, -0.2, 0.6)
+    studio.drag(corner, [corner[0] + 70, corner[1] - 50], is_cancelled=True)
+    is_left(studio, before)
     studio.drag(corner, [corner[0] + 70, corner[1] - 50])
     studio.wait()
     run.picture("patch-dragged")

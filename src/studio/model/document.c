@@ -23,6 +23,9 @@ struct StudioDocument {
     FrDigest on_disk;  // of the file when it was read or saved …
     bool knows_disk;   // … if it was
     uint64_t revision;
+    FrSource *held;      // the text when a pointer was pressed; NULL: none is
+    uint32_t held_steps; // how many there were then
+    bool is_abandoned;   // what that pointer does is to be ignored
     char *path, *name, *folder;
     GArray *watchers; // Watcher
 };
@@ -122,6 +125,7 @@ void studio_document_free(StudioDocument *document) {
         studio_history_free(document->history);
         fr_contents_free(document->contents);
         fr_source_unref(document->source);
+        fr_source_unref(document->held);
         g_free(document->path);
         g_free(document->name);
         g_free(document->folder);
@@ -192,7 +196,8 @@ static bool after_change(StudioDocument *document, bool is_changed) {
 
 bool studio_document_replace(StudioDocument *document, const char *text, size_t size,
                              const char *name, const char *key) {
-    return after_change(document, studio_history_replace(document->history, text, size, name, key));
+    return !document->is_abandoned &&
+           after_change(document, studio_history_replace(document->history, text, size, name, key));
 }
 
 static void drop_splices(GArray *splices) {
@@ -226,6 +231,39 @@ bool studio_document_splice_one(StudioDocument *document, FrSplice splice, const
 
 void studio_document_seal(StudioDocument *document) {
     studio_history_seal(document->history);
+}
+
+void studio_document_hold(StudioDocument *document) {
+    fr_source_unref(document->held);
+    document->held = fr_source_ref(document->source);
+    document->held_steps = studio_history_count(document->history);
+    document->is_abandoned = false;
+}
+
+bool studio_document_abandon(StudioDocument *document) {
+    if (document->held == NULL) {
+        return false;
+    }
+    size_t size;
+    const char *text = fr_source_text(document->held, &size);
+    FrDigest now = studio_document_digest(document);
+    studio_history_return(document->history, document->held_steps, text, size);
+    document->is_abandoned = true;
+    after_change(document, studio_document_digest(document) != now);
+    return true;
+}
+
+void studio_document_release(StudioDocument *document) {
+    bool was_abandoned = document->is_abandoned;
+    g_clear_pointer(&document->held, fr_source_unref);
+    document->is_abandoned = false;
+    if (was_abandoned) {
+        notify(document);
+    }
+}
+
+bool studio_document_is_abandoned(const StudioDocument *document) {
+    return document->is_abandoned;
 }
 
 bool studio_document_undo(StudioDocument *document) {

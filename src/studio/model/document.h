@@ -53,6 +53,15 @@ bool studio_document_splice_one(StudioDocument *document, FrSplice splice, const
 bool studio_document_replace(StudioDocument *document, const char *text, size_t size,
                              const char *name, const char *key);
 void studio_document_seal(StudioDocument *document);
+/// A pointer is pressed: what it does from here on can be taken back by abandon().
+void studio_document_hold(StudioDocument *document);
+/// Takes back what was done since hold(), which leaves no step, and refuses changes until
+/// release(). False if nothing is held.
+bool studio_document_abandon(StudioDocument *document);
+/// The pointer is let go. After abandon() all who watch are called, to show what is.
+void studio_document_release(StudioDocument *document);
+/// Whether changes are refused, as the drag was abandoned.
+bool studio_document_is_abandoned(const StudioDocument *document);
 bool studio_document_undo(StudioDocument *document);
 bool studio_document_redo(StudioDocument *document);
 const char *studio_document_undo_name(const StudioDocument *document);

@@ -134,6 +134,26 @@ bool studio_history_redo(StudioHistory *history) {
     return true;
 }
 
+void studio_history_return(StudioHistory *history, uint32_t count, const char *text, size_t size) {
+    bool is_far = history->done != count || size != history->text->len ||
+                  memcmp(text, history->text->str, size) != 0;
+    while (history->done > count) {
+        studio_history_undo(history);
+    }
+    if (is_far) {
+        forget_redo(history);
+        const Step *step = last_step(history);
+        bool can_go_on = step != NULL && history->saved != history->done;
+        history->is_sealed = !can_go_on;
+        char *name = g_strdup(step == NULL ? NULL : step->name);
+        char *key = g_strdup(can_go_on ? step->key : NULL);
+        studio_history_replace(history, text, size, name, key);
+        g_free(name);
+        g_free(key);
+    }
+    history->is_sealed = true;
+}
+
 const char *studio_history_undo_name(const StudioHistory *history) {
     const Step *step = last_step(history);
     return step == NULL ? NULL : step->name;

@@ -23,6 +23,9 @@ void studio_history_seal(StudioHistory *history);
 /// False if there is nothing to undo or redo.
 bool studio_history_undo(StudioHistory *history);
 bool studio_history_redo(StudioHistory *history);
+/// The text becomes again what it was after so many steps, as one that never changed; what came
+/// after cannot be redone. The last of them may have been gone on with.
+void studio_history_return(StudioHistory *history, uint32_t count, const char *text, size_t size);
 /// The name of the step that would be undone or redone; NULL: none.
 const char *studio_history_undo_name(const StudioHistory *history);
 const char *studio_history_redo_name(const StudioHistory *history);
