@@ -216,13 +216,13 @@ static void show_title(StudioStringPanel *panel) {
     uint64_t step = string == NULL ? 0 : studio_lstring_step(string);
     char *text = NULL;
     if (string != NULL) {
-        char *count = studio_count_words(studio_lstring_count(string), "module", "modules");
-        text = g_strdup_printf("Step %" G_GUINT64_FORMAT " of %" G_GUINT64_FORMAT " · %s%s", step,
-                               studio_lstring_length(string), count,
-                               !studio_lstring_is_shown(string) ? ", too many to show"
-                               : panel->is_matched              ? ""
-                                                                : ", not in the picture");
-        g_free(count);
+        char *words = studio_lstring_words(string);
+        text = g_strconcat(words,
+                           !studio_lstring_is_shown(string) ? ", too many to show"
+                           : panel->is_matched              ? ""
+                                                            : ", not in the picture",
+                           NULL);
+        g_free(words);
     }
     gtk_label_set_text(GTK_LABEL(panel->title), text == NULL ? "" : text);
     gtk_widget_set_tooltip_text(panel->title, text);
@@ -405,7 +405,8 @@ static GtkWidget *make_bar(StudioStringPanel *panel) {
     panel->next = add_button(panel, bar, "media-seek-forward-symbolic", "A step more", step);
     panel->title = gtk_label_new("");
     gtk_widget_add_css_class(panel->title, "numeric");
-    gtk_label_set_ellipsize(GTK_LABEL(panel->title), PANGO_ELLIPSIZE_END);
+    gtk_label_set_wrap(GTK_LABEL(panel->title), TRUE);
+    gtk_label_set_wrap_mode(GTK_LABEL(panel->title), PANGO_WRAP_WORD_CHAR);
     gtk_label_set_xalign(GTK_LABEL(panel->title), 0);
     gtk_widget_set_margin_start(panel->title, 6);
     gtk_widget_set_hexpand(panel->title, TRUE);

@@ -147,6 +147,25 @@ static void too_long(void) {
     clear(&both);
 }
 
+static void words(void) {
+    static const struct {
+        const char *length, *words;
+    } cases[] = {{"derivation length: 3\n", "Step 2 of 3 · 17 modules"},
+                 {"derivation length: 1\n", "Step 2, 1 beyond the length · 17 modules"},
+                 {"", "Step 2 · 17 modules"}};
+    char **parts = g_strsplit(weed, "w : A", 2);
+    for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+        char *text = g_strconcat(parts[0], cases[i].length, "w : A", parts[1], NULL);
+        Both both = make(text, "2");
+        char *said = studio_lstring_words(both.string);
+        g_assert_cmpstr(said, ==, cases[i].words);
+        g_free(said);
+        clear(&both);
+        g_free(text);
+    }
+    g_strfreev(parts);
+}
+
 static void no_lsystem(void) {
     static const char horn[] = "<frond version=\"1\"><plant id=\"weed\"><pgraph><horn id=\"h\"/>"
                                "</pgraph></plant></frond>\n";
@@ -168,6 +187,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/lstring/what a ray meets knows its module", picked);
     g_test_add_func("/studio/lstring/another plant is not taken for it", other);
     g_test_add_func("/studio/lstring/a string that is too long is only counted", too_long);
+    g_test_add_func("/studio/lstring/steps beyond the length are none of it", words);
     g_test_add_func("/studio/lstring/a plant that is no L-system has none", no_lsystem);
     return g_test_run();
 }

@@ -1,5 +1,7 @@
 #include "studio/model/borrowed.h"
 
+#include "studio/model/place.h"
+
 #include <string.h>
 
 static const char *const tags[] = {"curve", "function", "material", "plant", "slider"};
@@ -157,25 +159,32 @@ static void note_text(Use *use, const char *text, const FrParam *row) {
     }
 }
 
-void studio_add_used(const FrContents *contents, uint32_t plant, uint32_t element,
-                     GHashTable *used) {
-    Use use = {contents, plant, STUDIO_TAG_COUNT, used,
-               g_array_new(FALSE, FALSE, sizeof(uint32_t))};
+// What an element names itself.
+static void note_element(Use *use, uint32_t element) {
+    const FrContents *contents = use->contents;
     const FrContentsElement *at = fr_contents_at(contents, element);
     for (size_t r = 0; at->table != NULL && r < at->table->count; r++) {
         char *attribute = fr_param_attribute(&at->table->rows[r]);
         char *value = fr_contents_get(contents, element, attribute);
         if (value != NULL) {
-            note_text(&use, value, &at->table->rows[r]);
+            note_text(use, value, &at->table->rows[r]);
         }
         g_free(value);
         g_free(attribute);
     }
     if (studio_tag_of(contents, element) == STUDIO_TAG_FUNCTION) {
         char *text = fr_contents_text(contents, element, NULL);
-        note_text(&use, text, NULL);
+        note_text(use, text, NULL);
         g_free(text);
     }
+}
+
+void studio_add_used(const FrContents *contents, uint32_t plant, uint32_t element,
+                     GHashTable *used) {
+    Use use = {contents, plant, STUDIO_TAG_COUNT, used,
+               g_array_new(FALSE, FALSE, sizeof(uint32_t))};
+    note_element(&use, element);
+    const FrContentsElement *at = fr_contents_at(contents, element);
     for (uint32_t child = at->first; child != FR_NONE;
          child = fr_contents_at(contents, child)->next) {
         studio_add_used(contents, plant, child, used);
@@ -184,6 +193,19 @@ void studio_add_used(const FrContents *contents, uint32_t plant, uint32_t elemen
         studio_add_used(contents, plant, g_array_index(use.found, uint32_t, i), used);
     }
     g_array_unref(use.found);
+}
+
+uint32_t studio_count_users(const FrContents *contents, uint32_t element) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < fr_contents_count(contents); i++) {
+        Use use = {contents, studio_place_plant(contents, i), STUDIO_TAG_COUNT,
+                   g_hash_table_new(NULL, NULL), g_array_new(FALSE, FALSE, sizeof(uint32_t))};
+        note_element(&use, i);
+        count += i != element && g_hash_table_contains(use.used, GUINT_TO_POINTER(element));
+        g_hash_table_unref(use.used);
+        g_array_unref(use.found);
+    }
+    return count;
 }
 
 char *studio_names_file(const FrContents *contents, uint32_t element, char **attribute) {

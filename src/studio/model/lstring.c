@@ -2,6 +2,7 @@
 
 #include "frond/document.h"
 #include "studio/model/outline.h"
+#include "studio/model/values.h"
 
 #include <string.h>
 
@@ -194,6 +195,19 @@ uint64_t studio_lstring_step(const StudioLstring *string) {
 
 uint64_t studio_lstring_length(const StudioLstring *string) {
     return string->length;
+}
+
+char *studio_lstring_words(const StudioLstring *string) {
+    char *count = studio_count_words(studio_lstring_count(string), "module", "modules");
+    uint64_t step = studio_lstring_step(string), length = string->length;
+    char *of = step <= length ? g_strdup_printf(" of %" G_GUINT64_FORMAT, length)
+               : length > 0
+                   ? g_strdup_printf(", %" G_GUINT64_FORMAT " beyond the length", step - length)
+                   : g_strdup(""); // the text gives none
+    char *words = g_strdup_printf("Step %" G_GUINT64_FORMAT "%s · %s", step, of, count);
+    g_free(of);
+    g_free(count);
+    return words;
 }
 
 bool studio_lstring_is_shown(const StudioLstring *string) {

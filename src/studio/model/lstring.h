@@ -19,6 +19,8 @@ uint64_t studio_lstring_count(const StudioLstring *string);
 /// Steps done, and how many the text alone asks for.
 uint64_t studio_lstring_step(const StudioLstring *string);
 uint64_t studio_lstring_length(const StudioLstring *string);
+/// These three for a person: "Step 3 of 4 · 25 modules". Free with g_free().
+char *studio_lstring_words(const StudioLstring *string);
 /// False: it has more modules than are shown; what follows may not be asked for then.
 bool studio_lstring_is_shown(const StudioLstring *string);
 
