@@ -5,6 +5,7 @@
 #include "frond/daylight.h"
 #include "scene/particles.h"
 #include "scene/solids.h"
+#include "scene/sunken.h"
 
 #include <math.h>
 #include <string.h>
@@ -193,7 +194,6 @@ static FrStatus add_surroundings(World *world, const FrScene *scene, const FrHil
                                  const FrContext *context) {
     const vec3s box[2] = {world->setup.params.min, world->setup.params.max};
     world->solids = fr_solids_new();
-    fr_solids_tell_open(scene->surroundings, context);
     return fr_solids_add_surroundings(&world->solids, scene, hills, box, context);
 }
 
@@ -329,6 +329,15 @@ static FrStatus make_growth(FrEcosystem *ecosystem, const World *world, const Fr
     return status;
 }
 
+/// What is wrong with the surroundings of seeds from the `first` on.
+static void tell_ground(const FrEcosystem *ecosystem, uint32_t first, const FrScene *scene,
+                        const FrHills *hills, const FrContext *context) {
+    const FrSeed *seeds = (const FrSeed *)(const void *)ecosystem->seeds->data;
+    fr_solids_tell_open(scene->surroundings, context);
+    fr_sunken_tell(seeds + first, ecosystem->seeds->len - first, ecosystem->definitions, scene,
+                   hills, context);
+}
+
 static FrStatus begin(FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
                       const FrContext *context) {
     World world;
@@ -345,6 +354,7 @@ static FrStatus begin(FrEcosystem *ecosystem, const FrScene *scene, const FrHill
     if (status == FR_OK) {
         uint32_t old = fr_growth_plant_count(ecosystem->growth);
         const FrSeed *seeds = (const FrSeed *)(const void *)ecosystem->seeds->data;
+        tell_ground(ecosystem, old, scene, hills, context);
         status = fr_growth_add_seeds(ecosystem->growth, seeds + old, ecosystem->seeds->len - old,
                                      context);
     }
@@ -378,6 +388,7 @@ FrStatus fr_ecosystem_check(const FrEcosystem *ecosystem, const FrScene *scene,
     set_obstacles(&world);
     Told told = listen(context);
     if (status == FR_OK) {
+        tell_ground(ecosystem, 0, scene, hills, &told.context);
         status = fr_growth_check(&world.setup, (const FrSeed *)(const void *)ecosystem->seeds->data,
                                  ecosystem->seeds->len, &told.context);
     }

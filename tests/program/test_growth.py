@@ -251,6 +251,24 @@ def on_obstacles(folder):
         stands(at, 0)
 
 
+def sunken(folder):
+    """A seed that the first internode does not bring out of the ground is told."""
+    document = folder / "sunken.frond"
+    document.write_text("""<frond version="1">
+  <plant id="oak"><species/></plant>
+  <scene>
+    <growth steps="3" min="-4, -4, -2" max="4, 4, 4"/>
+    <place plant="oak" at="0, 0, -0.1"/>
+    <place plant="oak" at="2, 0, -0.5"/>
+  </scene>
+</frond>
+""")
+    for command in ("build", "check"):
+        said = tap.run(command, document).stderr
+        assert said.count("[seed-depth]") == 1 and "sunken.frond:6:6: warning: 1 of 2" in said, said
+        assert tap.run(command, document, "--set", "scene.ground=no").stderr == ""
+
+
 def too_wide(folder):
     """Small plants in a wide arena, whose cells are wide too, are told before they fail to grow."""
     document = folder / "wide.frond"
@@ -308,6 +326,7 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
          ("/program/growth/a state with more steps than asked for is told", resumed_later),
          ("/program/growth/seeds that cannot grow are told at their places", told_at_places),
          ("/program/growth/what stands on an obstacle grows", on_obstacles),
+         ("/program/growth/seeds that the ground holds are told", sunken),
          ("/program/growth/obstacles that are not closed are told", open_obstacles),
          ("/program/growth/cells that are too wide for a species are told", too_wide),
          ("/program/growth/checking does not grow", checked_soon)]

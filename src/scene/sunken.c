@@ -1,0 +1,38 @@
+/// Only the first internode of a plant passes the ground, so a seed must not lie deeper than that is
+/// long.
+#include "scene/sunken.h"
+
+#include <math.h>
+
+/// How long a first internode becomes in the dark, chance apart; infinite where nothing collides.
+static double reach_of(const FrSpeciesParams *species) {
+    double longest = fmin(1 + species->search, species->max_length);
+    return species->collide ? species->step * fmax(longest, 1) : INFINITY;
+}
+
+static bool is_sunken(const FrSeed *seed, const FrPlantDef *plant, const FrScene *scene,
+                      const FrHills *hills) {
+    double ground = 0;
+    bool has_ground = hills != NULL ? fr_hills_height(hills, seed->at[0], seed->at[1], &ground)
+                                    : scene->params->ground;
+    return has_ground && ground - seed->at[2] > reach_of(&plant->species->params);
+}
+
+void fr_sunken_tell(const FrSeed *seeds, uint32_t count, const GPtrArray *definitions,
+                    const FrScene *scene, const FrHills *hills, const FrContext *context) {
+    const FrSeed *first = NULL;
+    uint32_t sunken = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const FrPlantDef *plant = g_ptr_array_index(definitions, seeds[i].species);
+        if (is_sunken(&seeds[i], plant, scene, hills)) {
+            first = first == NULL ? &seeds[i] : first;
+            sunken++;
+        }
+    }
+    if (first != NULL) {
+        fr_diags_add(context->diags, FR_WARNING, "seed-depth", first->span,
+                     "%u of %u seeds lie deeper below the ground than a first internode is long "
+                     "and hardly grow, the first of them at %g,%g,%g",
+                     sunken, count, first->at[0], first->at[1], first->at[2]);
+    }
+}
