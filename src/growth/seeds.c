@@ -5,6 +5,7 @@
 
 #include <cglm/struct.h>
 #include <math.h>
+#include <stdlib.h>
 
 bool fr_seed_is_in_arena(const FrGrowthParams *params, const FrSeed *seed) {
     for (int axis = 0; axis < 3; axis++) {
@@ -96,27 +97,79 @@ static bool cell_at(const FrGrowthParams *params, double width, const double at[
     return true;
 }
 
-/// Adds the cells of feet that an obstacle takes.
-static void note_taken(const FrGrowthSetup *setup, double width, const FrGrowthObstacle *obstacle,
-                       const FrPoint3 *places, uint32_t count, bool *is_taken) {
-    const FrVoxelSurface surface = {obstacle->positions, obstacle->indices, obstacle->index_count,
-                                    false, obstacle->span};
-    const double origin[3] = {(double)setup->params.min.x, (double)setup->params.min.y,
-                              (double)setup->params.min.z};
-    vec3s low = {{INFINITY, INFINITY, INFINITY}}, high = {{-INFINITY, -INFINITY, -INFINITY}};
-    for (uint32_t i = 0; i < obstacle->vertex_count; i++) {
-        low = glms_vec3_minv(low, obstacle->positions[i]);
-        high = glms_vec3_maxv(high, obstacle->positions[i]);
-    }
+/// Places by their x, so that a triangle is held against those beside it only.
+typedef struct Sorted {
+    double x;
+    uint32_t place;
+} Sorted;
+
+static int compare_x(const void *a, const void *b) {
+    double p = ((const Sorted *)a)->x, q = ((const Sorted *)b)->x;
+    return (p > q) - (p < q);
+}
+
+static Sorted *sort_places(const FrPoint3 *places, uint32_t count) {
+    Sorted *sorted = g_new(Sorted, (size_t)count + 1);
     for (uint32_t i = 0; i < count; i++) {
-        bool is_near = !is_taken[i];
-        for (int axis = 0; axis < 3; axis++) {
-            is_near = is_near && places[i].at[axis] >= (double)low.raw[axis] - 2 * width &&
-                      places[i].at[axis] <= (double)high.raw[axis] + 2 * width;
+        sorted[i] = (Sorted){places[i].at[0], i};
+    }
+    qsort(sorted, count, sizeof *sorted, compare_x);
+    return sorted;
+}
+
+/// The first whose x is not below `least`.
+static uint32_t first_from(const Sorted *sorted, uint32_t count, double least) {
+    uint32_t low = 0, high = count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (sorted[middle].x < least) {
+            low = middle + 1;
+        } else {
+            high = middle;
         }
+    }
+    return low;
+}
+
+/// Places to look at, and whose cells are taken.
+typedef struct Feet {
+    const FrGrowthParams *params;
+    double width; ///< of a cell
+    const FrPoint3 *places;
+    const Sorted *sorted;
+    uint32_t count;
+    bool *is_taken;
+} Feet;
+
+/// Notes the cells that one triangle touches.
+static void note_triangle(const Feet *feet, const FrVoxelSurface *triangle) {
+    const double origin[3] = {(double)feet->params->min.x, (double)feet->params->min.y,
+                              (double)feet->params->min.z};
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int corner = 0; corner < 3; corner++) {
+        for (int axis = 0; axis < 3; axis++) {
+            double at = (double)triangle->positions[triangle->indices[corner]].raw[axis];
+            low[axis] = fmin(low[axis], at - 2 * feet->width);
+            high[axis] = fmax(high[axis], at + 2 * feet->width);
+        }
+    }
+    uint32_t i = first_from(feet->sorted, feet->count, low[0]);
+    for (; i < feet->count && feet->sorted[i].x <= high[0]; i++) {
+        uint32_t place = feet->sorted[i].place;
+        const double *at = feet->places[place].at;
         FrCell cell;
-        is_taken[i] |= is_near && cell_at(&setup->params, width, places[i].at, &cell) &&
-                       fr_voxels_touches(&surface, origin, width, cell);
+        if (at[1] >= low[1] && at[1] <= high[1] && at[2] >= low[2] && at[2] <= high[2] &&
+            cell_at(feet->params, feet->width, at, &cell)) {
+            feet->is_taken[place] |= fr_voxels_touches(triangle, origin, feet->width, cell);
+        }
+    }
+}
+
+static void note_taken(const Feet *feet, const FrGrowthObstacle *obstacle) {
+    for (uint32_t i = 0; i + 2 < obstacle->index_count; i += 3) {
+        const FrVoxelSurface triangle = {
+            .positions = obstacle->positions, .indices = obstacle->indices + i, .index_count = 3};
+        note_triangle(feet, &triangle);
     }
 }
 
@@ -128,12 +181,14 @@ bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, double width, vec3s up,
     for (size_t i = 0; i < places; i++) {
         place[i] = place_of(&seeds[i / CELLS], up, width, (int)(i % CELLS));
     }
+    Sorted *sorted = sort_places(place, (uint32_t)places);
+    const Feet feet = {&setup->params, width, place, sorted, (uint32_t)places, is_taken};
     for (uint32_t i = 0; i < setup->obstacle_count; i++) {
         const FrGrowthObstacle *obstacle = &setup->obstacles[i];
         if (!obstacle->is_ground) {
             fr_solid_holds(obstacle->positions, obstacle->indices, obstacle->index_count, place,
                            (uint32_t)places, is_held);
-            note_taken(setup, width, obstacle, place, (uint32_t)places, is_taken);
+            note_taken(&feet, obstacle);
         }
     }
     bool *is_left_out = g_new(bool, (size_t)count + 1);
@@ -148,6 +203,7 @@ bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, double width, vec3s up,
     }
     g_free(is_held);
     g_free(is_taken);
+    g_free(sorted);
     g_free(place);
     return is_left_out;
 }

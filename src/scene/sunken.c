@@ -1,5 +1,5 @@
-/// Only the first internode of a plant passes the ground, so a seed must not lie deeper than that is
-/// long.
+/// Only the first internode of a plant passes the ground, so a seed must not lie deeper than that
+/// is long.
 #include "scene/sunken.h"
 
 #include <math.h>

@@ -185,16 +185,8 @@ bool fr_voxels_touches(const FrVoxelSurface *surface, const double origin[3], do
     for (uint32_t i = 0; i + 2 < surface->index_count && !is_touched; i += 3) {
         double corner[3][3];
         corners_of(surface, i, origin, width, corner);
-        bool is_near = true;
-        for (int k = 0; k < 3 && is_near; k++) {
-            double low = fmin(corner[0][k], fmin(corner[1][k], corner[2][k]));
-            double high = fmax(corner[0][k], fmax(corner[1][k], corner[2][k]));
-            is_near = low <= middle[k] + HALF && high >= middle[k] - HALF;
-        }
-        if (is_near) {
-            Triangle triangle = triangle_of((const double(*)[3])corner);
-            is_touched = touches(&triangle, middle, HALF);
-        }
+        Triangle triangle = triangle_of((const double(*)[3])corner);
+        is_touched = touches(&triangle, middle, HALF);
     }
     return is_touched;
 }
