@@ -2,7 +2,7 @@
 
 #include "studio/view/program.h"
 
-enum { UNIT_PICTURE, UNIT_SHADOW, UNIT_BUMPS, UNIT_GLOSS };
+#include <string.h>
 
 void studio_piece_attribute(GLuint index, GLint size, size_t stride, size_t offset,
                             GLuint divisor) {
@@ -38,19 +38,41 @@ void studio_piece_light(GLuint program, const FrShading *shading) {
     use_lamps(program, shading);
 }
 
-static void use_map(GLuint program, const char *name, const char *question, int unit,
-                    GLuint texture) {
-    studio_program_int(program, name, unit);
-    studio_program_int(program, question, texture != 0);
-    glActiveTexture((GLenum)(GL_TEXTURE0 + unit));
-    glBindTexture(GL_TEXTURE_2D, texture);
+static const struct {
+    const char *map, *question;
+} maps[STUDIO_MAPS] = {{"picture", "has_picture"}, {"bumps", "has_bumps"}, {"gloss", "has_gloss"}};
+
+static const GLint map_units[STUDIO_MAPS] = {0, 2, 3}; // 1 is the shadow
+
+static const char *const dress_names[STUDIO_DRESS] = {"cutoff", "translucency", "roughness",
+                                                      "relief", "mirror"};
+
+StudioPen studio_pen_begin(GLuint program, bool has_details) {
+    StudioPen pen = {.has_details = has_details,
+                     .model = glGetUniformLocation(program, "model"),
+                     .enlarge = glGetUniformLocation(program, "enlarge"),
+                     .tint = glGetUniformLocation(program, "tint"),
+                     .is_blade = glGetUniformLocation(program, "is_blade"),
+                     .is_leaf = glGetUniformLocation(program, "is_leaf"),
+                     .is_still = glGetUniformLocation(program, "is_still")};
+    for (int i = 0; i < STUDIO_DRESS; i++) {
+        pen.dress[i] = glGetUniformLocation(program, dress_names[i]);
+    }
+    for (int i = 0; i < STUDIO_MAPS; i++) {
+        studio_program_int(program, maps[i].map, map_units[i]);
+        pen.has_map[i] = glGetUniformLocation(program, maps[i].question);
+    }
+    return pen;
 }
 
-void studio_piece_draw(GLuint program, const StudioPiece *piece, bool has_details) {
+static void use_vertices(const StudioPiece *piece) {
     glBindBuffer(GL_ARRAY_BUFFER, piece->vertices);
     studio_piece_attribute(0, 3, sizeof(FrVertex), offsetof(FrVertex, position), 0);
     studio_piece_attribute(1, 3, sizeof(FrVertex), offsetof(FrVertex, normal), 0);
     studio_piece_attribute(2, 2, sizeof(FrVertex), offsetof(FrVertex, uv), 0);
+}
+
+static void use_leaves(const StudioPiece *piece) {
     if (piece->leaves != 0) {
         size_t first = piece->first_leaf * sizeof(StudioLeaf);
         glBindBuffer(GL_ARRAY_BUFFER, piece->leaves);
@@ -62,21 +84,70 @@ void studio_piece_draw(GLuint program, const StudioPiece *piece, bool has_detail
         glVertexAttrib4f(3, 0, 0, 0, 1);
         glVertexAttrib4f(4, 0, 0, 0, 1);
     }
-    studio_program_matrix(program, "model", &piece->model);
-    studio_program_float(program, "enlarge", piece->enlarge);
-    studio_program_vec3(program, "tint", piece->look.tint);
-    studio_program_float(program, "cutoff", piece->look.cutoff);
-    studio_program_float(program, "translucency", piece->look.translucency);
-    studio_program_float(program, "roughness", piece->look.roughness);
-    studio_program_float(program, "relief", piece->look.relief);
-    studio_program_float(program, "mirror", piece->look.mirror);
-    studio_program_int(program, "is_blade", piece->is_blade);
-    studio_program_int(program, "is_leaf", piece->leaves != 0);
-    studio_program_int(program, "is_still", piece->is_still);
-    use_map(program, "picture", "has_picture", UNIT_PICTURE, piece->picture);
-    use_map(program, "bumps", "has_bumps", UNIT_BUMPS, has_details ? piece->bumps : 0);
-    use_map(program, "gloss", "has_gloss", UNIT_GLOSS, has_details ? piece->gloss : 0);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, piece->indices);
+}
+
+// What surfaces do to light.
+static void use_dress(const StudioPen *pen, const StudioDress *dress) {
+    const float values[STUDIO_DRESS] = {dress->cutoff, dress->translucency, dress->roughness,
+                                        dress->relief, dress->mirror};
+    glUniform3fv(pen->tint, 1, dress->tint);
+    for (int i = 0; i < STUDIO_DRESS; i++) {
+        glUniform1f(pen->dress[i], values[i]);
+    }
+}
+
+static void use_maps(const StudioPen *pen, const StudioPiece *piece) {
+    const GLuint textures[STUDIO_MAPS] = {piece->picture, pen->has_details ? piece->bumps : 0,
+                                          pen->has_details ? piece->gloss : 0};
+    for (int i = 0; i < STUDIO_MAPS; i++) {
+        glUniform1i(pen->has_map[i], textures[i] != 0);
+        glActiveTexture((GLenum)(GL_TEXTURE0 + map_units[i]));
+        glBindTexture(GL_TEXTURE_2D, textures[i]);
+    }
+}
+
+// What is as in the last piece stays: parts of a plant share a place, and equal plants nearly all
+// else.
+static void use_piece(StudioPen *pen, const StudioPiece *piece) {
+    const StudioPiece *last = &pen->last;
+    bool is_first = !pen->has_last;
+    if (is_first || piece->vertices != last->vertices) {
+        use_vertices(piece);
+    }
+    if (is_first || piece->leaves != last->leaves || piece->first_leaf != last->first_leaf) {
+        use_leaves(piece);
+    }
+    if (is_first || piece->indices != last->indices) {
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, piece->indices);
+    }
+    if (is_first || memcmp(&piece->model, &last->model, sizeof piece->model) != 0) {
+        glUniformMatrix4fv(pen->model, 1, GL_FALSE, piece->model.raw[0]);
+    }
+    if (is_first || memcmp(&piece->look, &last->look, sizeof piece->look) != 0) {
+        use_dress(pen, &piece->look);
+    }
+    if (is_first || piece->picture != last->picture || piece->bumps != last->bumps ||
+        piece->gloss != last->gloss) {
+        use_maps(pen, piece);
+    }
+    if (is_first || memcmp(&piece->enlarge, &last->enlarge, sizeof piece->enlarge) != 0) {
+        glUniform1f(pen->enlarge, piece->enlarge);
+    }
+    if (is_first || piece->is_blade != last->is_blade) {
+        glUniform1i(pen->is_blade, piece->is_blade);
+    }
+    if (is_first || (piece->leaves != 0) != (last->leaves != 0)) {
+        glUniform1i(pen->is_leaf, piece->leaves != 0);
+    }
+    if (is_first || piece->is_still != last->is_still) {
+        glUniform1i(pen->is_still, piece->is_still);
+    }
+    pen->last = *piece;
+    pen->has_last = true;
+}
+
+void studio_pen_draw(StudioPen *pen, const StudioPiece *piece) {
+    use_piece(pen, piece);
     const void *first = (const void *)(uintptr_t)(piece->first_index * sizeof(uint32_t));
     if (piece->leaves != 0) {
         glDrawElementsInstanced(GL_TRIANGLES, (GLsizei)piece->index_count, GL_UNSIGNED_INT, first,

@@ -260,10 +260,10 @@ static void draw_coarse(StudioRenderer *renderer, Shot *shot, const StudioCamera
     } else {
         GArray *list =
             studio_store_list_coarse(renderer->store, (uint64_t)renderer->budget, UINT32_MAX);
-        GLuint program = begin_surfaces(shot);
+        StudioPen pen = studio_pen_begin(begin_surfaces(shot), false);
         for (guint i = 0; i < list->len; i++) {
             const StudioPiece *piece = &g_array_index(list, StudioPiece, i);
-            studio_piece_draw(program, piece, false);
+            studio_pen_draw(&pen, piece);
             renderer->pace.coarse_triangles += piece->triangles;
         }
         glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -361,10 +361,11 @@ static bool draw_slices(StudioRenderer *renderer, const Shot *shot, double until
     } else {
         program = begin_surfaces(shot);
     }
+    StudioPen pen = studio_pen_begin(program, !is_shadow);
     uint64_t waiting = 0; // triangles; small pieces are waited for together
     while (renderer->next < renderer->slices->len) {
         const StudioPiece *piece = &g_array_index(renderer->slices, StudioPiece, renderer->next++);
-        studio_piece_draw(program, piece, !is_shadow);
+        studio_pen_draw(&pen, piece);
         waiting += piece->triangles + PIECE_COST;
         if (waiting < SLICE_TRIANGLES) {
             continue;
