@@ -1,8 +1,10 @@
 #include "studio/wind_menu.h"
 
 #include "studio/accessible.h"
+#include "studio/model/wind.h"
 #include "studio/window_private.h"
 
+#include <math.h>
 #include <string.h>
 
 static const struct {
@@ -20,12 +22,26 @@ static double *number_of(StudioWindow *window, size_t handle) {
     return (double *)(void *)((char *)&display->wind + handles[handle].offset);
 }
 
+// Strength and direction are the plant's, too, where it is bent by a wind of its own.
+static void set_number(StudioWindow *window, size_t handle, double number) {
+    double *place = number_of(window, handle), strength, direction;
+    *place = CLAMP(number, handles[handle].least, handles[handle].most);
+    const StudioWind *wind = &studio_viewport_display(window->viewport)->wind;
+    if (window->document == NULL || place == &wind->speed ||
+        !studio_wind_read(window->document, studio_window_plant(window), &strength, &direction)) {
+        return;
+    }
+    bool is_strength = place == &wind->strength;
+    studio_wind_write(window->document, studio_window_plant(window),
+                      is_strength ? wind->strength : strength,
+                      is_strength && strength > 0 ? direction : wind->direction);
+}
+
 static void do_number(GSimpleAction *action, GVariant *parameter, gpointer data) {
     StudioWindow *window = data;
     for (size_t i = 0; i < G_N_ELEMENTS(handles); i++) {
         if (strcmp(handles[i].action, g_action_get_name(G_ACTION(action))) == 0) {
-            double number = g_variant_get_double(parameter);
-            *number_of(window, i) = CLAMP(number, handles[i].least, handles[i].most);
+            set_number(window, i, g_variant_get_double(parameter));
         }
     }
     studio_viewport_update(window->viewport);
@@ -51,7 +67,7 @@ void studio_wind_add_actions(StudioWindow *window) {
 // Whoever sets the wind wants to see it.
 static void on_value(GtkRange *range, StudioWindow *window) {
     size_t handle = GPOINTER_TO_SIZE(g_object_get_data(G_OBJECT(range), "studio-handle"));
-    *number_of(window, handle) = gtk_range_get_value(range);
+    set_number(window, handle, gtk_range_get_value(range));
     g_action_group_change_action_state(G_ACTION_GROUP(window), "wind", g_variant_new_boolean(TRUE));
 }
 
@@ -72,8 +88,32 @@ static void add_handle(StudioWindow *window, GtkBox *box, size_t handle) {
     gtk_box_append(box, scale);
 }
 
+// Each drag is a step of its own.
+static gboolean on_event(GtkEventControllerLegacy *controller, GdkEvent *event,
+                         StudioWindow *window) {
+    (void)controller;
+    GdkEventType type = gdk_event_get_event_type(event);
+    if (window->document != NULL && (type == GDK_BUTTON_RELEASE || type == GDK_KEY_RELEASE)) {
+        studio_document_seal(window->document);
+    }
+    return FALSE;
+}
+
+// A plant's own wind is what is seen first.
+static void take_own(StudioWindow *window) {
+    StudioWind *wind = &studio_viewport_display(window->viewport)->wind;
+    double strength, direction;
+    if (window->document != NULL &&
+        studio_wind_read(window->document, studio_window_plant(window), &strength, &direction) &&
+        strength > 0) {
+        wind->strength = fmin(strength, 1);
+        wind->direction = direction;
+    }
+}
+
 // The numbers may have been set by actions.
 static void on_show(GtkWidget *box, StudioWindow *window) {
+    take_own(window);
     for (GtkWidget *child = gtk_widget_get_first_child(box); child != NULL;
          child = gtk_widget_get_next_sibling(child)) {
         if (GTK_IS_SCALE(child)) {
@@ -98,6 +138,10 @@ GtkWidget *studio_wind_button_new(StudioWindow *window) {
         add_handle(window, GTK_BOX(box), i);
     }
     g_signal_connect(box, "map", G_CALLBACK(on_show), window);
+    GtkEventController *events = gtk_event_controller_legacy_new();
+    gtk_event_controller_set_propagation_phase(events, GTK_PHASE_CAPTURE);
+    g_signal_connect(events, "event", G_CALLBACK(on_event), window);
+    gtk_widget_add_controller(box, events);
     GtkWidget *popover = gtk_popover_new();
     gtk_popover_set_child(GTK_POPOVER(popover), box);
     GtkWidget *menu = gtk_menu_button_new();

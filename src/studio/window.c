@@ -194,6 +194,9 @@ void studio_window_show_problem(StudioWindow *window) {
 
 static void on_document_changed(void *user) {
     StudioWindow *window = user;
+    if (window->toast != NULL && adw_toast_get_button_label(window->toast) != NULL) {
+        adw_toast_dismiss(window->toast); // what it offers would undo something else now
+    }
     update_title(window);
     update_panels(window);
     studio_window_show_texts(window);

@@ -537,6 +537,33 @@ def test_wind(run):
     assert state["digest"] == before["digest"] and state["steps"] == before["steps"], state
 
 
+def test_own_wind(run):
+    """the wind that a plant is bent by is set by the wind's menu, each drag as a step"""
+    studio = run.studio
+    file = os.path.join(run.home, "bent.frond")
+    with open(file, "w", encoding="utf-8") as out:
+        out.write(BEGINNING.replace("</pgraph>", '</pgraph><nurbs wind="0, 0.2, 0"/>'))
+    studio.ask(f"open {file}")
+    studio.wait()
+    before = studio.state()
+    studio.click(studio.middle("wind-menu"))
+    time.sleep(0.4)
+    studio.drag(studio.middle("wind-strength", 0.2), studio.middle("wind-strength", 0.6))
+    assert studio.state()["steps"] == 1, "one drag is one step"
+    studio.drag(studio.middle("wind-direction", 0.1), studio.middle("wind-direction", 0.2))
+    run.picture("bent-wind")
+    state = studio.state()
+    assert state["steps"] == 2 and state["problems"] == 0, state
+    east, north = re.search('wind="([0-9.-]+), *([0-9.-]+), *0"', studio.text(run.home)).groups()
+    assert float(east) > 0.1 and float(north) > 0.1, (east, north)
+    studio.pointer("key", "Escape")
+    studio.undo_all()
+    assert studio.state()["digest"] == before["digest"]
+    studio.ask("do wind(false)")
+    studio.ask(f"open {run.file}")
+    studio.wait()
+
+
 def test_curve(run):
     """a curve is drawn by its points"""
     studio = run.studio
@@ -983,7 +1010,7 @@ def test_killed(run):
 
 
 TESTS = [test_welcome, test_repeat, test_examples, test_broken, test_lsystem, test_grove, test_levels, test_arrange, test_rows, test_export_one,
-         test_light, test_lamps, test_patch, test_sketch,
+         test_light, test_lamps, test_patch, test_own_wind, test_sketch,
          test_device, test_flower, test_link, test_escape, test_preset, test_slider, test_material, test_keys, test_wind, test_curve, test_view, test_hand,
          test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
 
