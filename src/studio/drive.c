@@ -9,13 +9,13 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { WAIT_MILLISECONDS = 15, SETTLE = 4 };
+enum { WAIT_MILLISECONDS = 15, SETTLE = 4, HEARD_FRAMES = 3 };
 
 typedef struct Drive {
     StudioWindow *window;
     GIOChannel *input;
     int settled; // checks in a row that found nothing to wait for
-    int frames;  // still to be drawn in orbit
+    int frames;  // still to be drawn by orbit or hear
     gint64 began;
 } Drive;
 
@@ -363,6 +363,28 @@ static void orbit(Drive *drive, char *const *words, const char *rest) {
     gtk_widget_add_tick_callback(GTK_WIDGET(drive->window->viewport), on_orbit, drive, NULL);
 }
 
+static gboolean on_heard(GtkWidget *window, GdkFrameClock *clock, gpointer data) {
+    (void)window;
+    (void)clock;
+    Drive *drive = data;
+    if (drive->frames-- > 0) {
+        return G_SOURCE_CONTINUE;
+    }
+    answer("ok");
+    listen(drive);
+    return G_SOURCE_REMOVE;
+}
+
+// Answers when all that pointer and keys have done so far was handled. Motion waits for the next
+// picture, and what it leads to may wait for another.
+static void hear(Drive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    drive->frames = HEARD_FRAMES;
+    gdk_display_sync(gtk_widget_get_display(GTK_WIDGET(drive->window)));
+    gtk_widget_add_tick_callback(GTK_WIDGET(drive->window), on_heard, drive, NULL);
+}
+
 static void wait_for_rest(Drive *drive, char *const *words, const char *rest) {
     (void)words;
     (void)rest;
@@ -389,6 +411,7 @@ static const struct {
     {"do", do_action, 2, false},
     {"open", open_file, 2, false},
     {"wait", wait_for_rest, 1, true},
+    {"hear", hear, 1, true},
     {"size", size, 3, false},
     {"letters", letters, 2, false},
     {"turn", turn, 4, false},

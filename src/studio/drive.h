@@ -9,6 +9,7 @@
 ///   do ACTION              activates an action of the window: add::leaf, mode('skeleton'), undo
 ///   open FILE              opens a document in the window
 ///   wait                   answers when all is built, painted and drawn
+///   hear                   answers when what pointer and keys did has been handled
 ///   size WIDTH HEIGHT      of the window
 ///   letters FACTOR         makes all letters larger
 ///   focus, focus all       answers what has the keyboard; all that may have it

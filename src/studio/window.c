@@ -7,25 +7,43 @@
 #include <stdarg.h>
 #include <string.h>
 
-enum { AUTOSAVE_SECONDS = 4 };
+enum { AUTOSAVE_SECONDS = 4, SAID_SECONDS = 4, UNDO_SECONDS = 8 };
 
 G_DEFINE_TYPE(StudioWindow, studio_window, ADW_TYPE_APPLICATION_WINDOW)
 
 // ---- what is shown -----------------------------------------------------------------------------
 
+static void on_dismissed(AdwToast *toast, StudioWindow *window) {
+    if (window->toast == toast) {
+        g_clear_weak_pointer(&window->toast);
+        g_clear_handle_id(&window->toast_timer, g_source_remove);
+    }
+}
+
+static gboolean on_said_long_enough(gpointer user) {
+    StudioWindow *window = user;
+    window->toast_timer = 0;
+    adw_toast_dismiss(window->toast);
+    return G_SOURCE_REMOVE;
+}
+
+// What is said while something is shown takes its place: libadwaita 1.2 uses a toast after it has
+// freed it where one is dismissed before it has come up wholly.
 static void say(StudioWindow *window, const char *text, bool can_undo) {
     char *escaped = g_markup_escape_text(text, -1);
-    AdwToast *toast = adw_toast_new(escaped);
-    adw_toast_set_timeout(toast, can_undo ? 8 : 4);
-    if (can_undo) {
-        adw_toast_set_button_label(toast, "_Undo");
-        adw_toast_set_action_name(toast, "win.undo");
+    if (window->toast == NULL) {
+        AdwToast *toast = adw_toast_new(escaped);
+        adw_toast_set_timeout(toast, 0); // the window's own timer: it begins anew with each text
+        g_set_weak_pointer(&window->toast, toast);
+        g_signal_connect_object(toast, "dismissed", G_CALLBACK(on_dismissed), window, 0);
+        adw_toast_overlay_add_toast(window->toasts, toast);
     }
-    if (window->toast != NULL) { // the newest is shown at once, and what is said again only once
-        adw_toast_dismiss(window->toast);
-    }
-    g_set_weak_pointer(&window->toast, toast);
-    adw_toast_overlay_add_toast(window->toasts, toast);
+    adw_toast_set_title(window->toast, escaped);
+    adw_toast_set_button_label(window->toast, can_undo ? "_Undo" : NULL);
+    adw_toast_set_action_name(window->toast, can_undo ? "win.undo" : NULL);
+    g_clear_handle_id(&window->toast_timer, g_source_remove);
+    window->toast_timer =
+        g_timeout_add_seconds(can_undo ? UNDO_SECONDS : SAID_SECONDS, on_said_long_enough, window);
     g_free(escaped);
 }
 
@@ -194,8 +212,8 @@ void studio_window_show_problem(StudioWindow *window) {
 
 static void on_document_changed(void *user) {
     StudioWindow *window = user;
-    if (window->toast != NULL && adw_toast_get_button_label(window->toast) != NULL) {
-        adw_toast_dismiss(window->toast); // what it offers would undo something else now
+    if (window->toast != NULL) {
+        adw_toast_set_button_label(window->toast, NULL); // it would undo something else now
     }
     update_title(window);
     update_panels(window);
@@ -345,6 +363,7 @@ static void studio_window_dispose(GObject *object) {
         window->settings = NULL;
     }
     g_clear_handle_id(&window->autosave, g_source_remove);
+    g_clear_handle_id(&window->toast_timer, g_source_remove);
     g_clear_weak_pointer(&window->toast);
     g_clear_handle_id(&window->progress, g_source_remove);
     if (window->builder != NULL) {

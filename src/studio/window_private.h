@@ -44,7 +44,8 @@ struct _StudioWindow {
     GtkWidget *stack; ///< "welcome", "document"
     AdwWindowTitle *title;
     AdwToastOverlay *toasts;
-    AdwToast *toast;          ///< shown last; NULL: it has gone
+    AdwToast *toast;          ///< what is said; NULL: nothing
+    guint toast_timer;        ///< ends it; 0: nothing is said
     GtkWidget *outer, *inner; ///< panes
     GtkWidget *undo, *redo, *save_button, *welcome_hidden[5];
     StudioViewport *viewport;

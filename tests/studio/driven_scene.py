@@ -57,6 +57,7 @@ def open_grove(run):
     grove = os.path.join(run.home, "grove.frond")
     with open(grove, "w", encoding="utf-8") as file:
         file.write(GROVE)
+    studio.ask("size 1440 900")
     studio.ask(f"open {grove}")
     studio.wait()
     studio.ask("turn 0 20 7")

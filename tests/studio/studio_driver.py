@@ -158,8 +158,10 @@ class Studio:
             return file.read()
 
     def pointer(self, *words):
+        """What a hand does; the program has heard of it afterwards."""
         subprocess.run(["xdotool", *[str(word) for word in words]], check=True,
                        env=self.environment)
+        self.ask("hear")
 
     def go(self, point):
         self.pointer("mousemove", round(self.dense * point[0]), round(self.dense * point[1]))
@@ -167,7 +169,6 @@ class Studio:
     def click(self, point):
         self.go(point)
         self.pointer("click", 1)
-        time.sleep(0.05)
 
     def drag(self, begin, end, button=1, steps=8, is_cancelled=False):
         """In steps: one jump may be no drag. Escape may cancel it half way."""
@@ -175,12 +176,10 @@ class Studio:
         self.pointer("mousedown", button)
         for step in range(1, steps + 1):
             self.go([a + (b - a) * step / steps for a, b in zip(begin, end)])
-            time.sleep(0.02)
             if is_cancelled and step == (steps + 1) // 2:
                 self.wait()  # the change is seen
                 self.pointer("key", "Escape")
         self.pointer("mouseup", button)
-        time.sleep(0.05)
 
     def quit(self):
         self.ask("quit")

@@ -23,6 +23,7 @@ def test_examples(run):
         assert state["problems"] == 0, f"{file.name}: {state}"
         assert state["triangles"] > 0, f"{file.name}: nothing is drawn"
         assert state["saved"], f"{file.name} was changed by opening it"
+    run.studio.ask("size 1440 900")
 
 
 def test_broken(run):
