@@ -179,7 +179,7 @@ def test_graph(run):
     run.keys("Return")
     assert "element-id" in studio.ask("focus"), studio.ask("focus")
     focus_graph(run)
-    run.keys("Menu", "Down", "Return")  # the second line of the menu: Enable or Disable
+    run.keys("Menu", "Down", "Down", "Down", "Return")  # the fourth line: Enable or Disable
     assert studio.state()["steps"] == 2, studio.state()
     focus_graph(run)
     run.keys("Delete")
