@@ -56,8 +56,7 @@ static void test_own(void) {
 static void test_none(void) {
     static const char *const texts[] = {
         "<frond version=\"1\"><plant id=\"p\"><pgraph/></plant></frond>\n",
-        "<frond version=\"1\"><plant id=\"p\"><pgraph/><nurbs wind=\"=a, 0, "
-        "0\"/></plant></frond>\n",
+        "<frond version=\"1\"><plant id=\"p\"><pgraph/><nurbs wind=\"=a,0,0\"/></plant></frond>\n",
         "<frond version=\"1\"><plant id=\"p\"><pgraph/><nurbs wind=\"1, 2\"/></plant></frond>\n"};
     for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
         StudioDocument *document = studio_document_new(texts[i], strlen(texts[i]), "none", NULL);
