@@ -112,16 +112,15 @@ static float drifting(const FrGround *ground, float x, float y, Layer layer, flo
     return height;
 }
 
-vec3s fr_ground_colour(const FrGround *ground, float x, float y) {
+FrGroundPoint fr_ground_at(const FrGround *ground, float x, float y) {
     if (ground->variation <= 0.0f) {
-        return ground->colour;
+        return (FrGroundPoint){ground->colour, {{0, 0, 1}}};
     }
-    float sx;
-    float sy;
-    float grain = drifting(ground, x, y, grain_layer, &sx, &sy);
-    float fine = drifting(ground, x, y, fine_layer, &sx, &sy);
-    float middle = drifting(ground, x, y, middle_layer, &sx, &sy);
-    float coarse = tile_at(ground, x, y, coarse_layer, &sx, &sy);
+    float grain_x, grain_y, fine_x, fine_y, unused;
+    float grain = drifting(ground, x, y, grain_layer, &grain_x, &grain_y);
+    float fine = drifting(ground, x, y, fine_layer, &fine_x, &fine_y);
+    float middle = drifting(ground, x, y, middle_layer, &unused, &unused);
+    float coarse = tile_at(ground, x, y, coarse_layer, &unused, &unused);
     float light = 1.2f * grain + 0.7f * fine + 0.4f * middle + 0.3f * coarse;
     vec3s colour = glms_vec3_scale(ground->colour, expf(ground->variation * light));
     // Patches drift between dry, reddish and fresh, greenish ground.
@@ -129,21 +128,10 @@ vec3s fr_ground_colour(const FrGround *ground, float x, float y) {
     colour.r *= 1.0f + 0.35f * dry;
     colour.g *= 1.0f - 0.1f * dry;
     colour.b *= 1.0f - 0.2f * dry;
-    colour = glms_vec3_maxv(colour, glms_vec3_zero());
-    return glms_vec3_minv(colour, glms_vec3_one());
-}
-
-vec3s fr_ground_normal(const FrGround *ground, float x, float y) {
-    if (ground->variation <= 0.0f) {
-        return (vec3s){{0, 0, 1}};
-    }
-    float fine_x;
-    float fine_y;
-    float coarse_x;
-    float coarse_y;
-    drifting(ground, x, y, grain_layer, &fine_x, &fine_y);
-    drifting(ground, x, y, fine_layer, &coarse_x, &coarse_y);
     float strength = 4.0f * ground->variation;
-    return glms_vec3_normalize(
-        (vec3s){{-strength * (fine_x + coarse_x), -strength * (fine_y + coarse_y), 1.0f}});
+    return (FrGroundPoint){
+        .colour = glms_vec3_clamp(colour, 0.0f, 1.0f),
+        .normal = glms_vec3_normalize(
+            (vec3s){{-strength * (grain_x + fine_x), -strength * (grain_y + fine_y), 1.0f}}),
+    };
 }

@@ -15,8 +15,10 @@ typedef struct FrGround {
     double origin[2]; ///< of the renderer's coordinates in the world, so that patches stay in place
 } FrGround;
 
+typedef struct FrGroundPoint {
+    vec3s colour, normal; ///< linear; of unit length
+} FrGroundPoint;
+
 FrGround *fr_ground_new(vec3s colour, float variation);
 void fr_ground_free(FrGround *ground);
-/// Colour and unit normal at a point.
-vec3s fr_ground_colour(const FrGround *ground, float x, float y);
-vec3s fr_ground_normal(const FrGround *ground, float x, float y);
+FrGroundPoint fr_ground_at(const FrGround *ground, float x, float y);

@@ -129,10 +129,11 @@ static void meet_plant(const FrWorld *world, const FrHit *hit, vec3s out, FrSurf
 static void meet_ground(const FrWorld *world, vec3s point, float distance, vec3s out,
                         FrSurface *surface) {
     vec3s up = {{0, 0, 1}};
+    FrGroundPoint ground = fr_ground_at(world->ground, point.x, point.y);
     surface->bsdf = (FrBsdf){
-        .normal = facing(fr_ground_normal(world->ground, point.x, point.y), out),
+        .normal = facing(ground.normal, out),
         .side = up,
-        .reflectance = fr_ground_colour(world->ground, point.x, point.y),
+        .reflectance = ground.colour,
         .rough_a = 1.0f,
     };
     surface->distance = distance;

@@ -8,7 +8,7 @@
 enum { SAMPLES = 4000 };
 
 static float brightness(const FrGround *ground, double x, double y) {
-    return fr_luminance(fr_ground_colour(ground, (float)x, (float)y));
+    return fr_luminance(fr_ground_at(ground, (float)x, (float)y).colour);
 }
 
 /// Correlation of the brightness along a line with that along the line shifted.
