@@ -6,6 +6,7 @@
 // generator, 2007. Both bend by strengths that are tuned; here the bend follows from how far the
 // bud is from where it shall be (docs/growth-engine.md, Climbing).
 #include "growth/engine.h"
+#include "growth/obstacles.h"
 
 #include <cglm/struct.h>
 #include <math.h>
@@ -13,44 +14,12 @@
 // ---- what can be climbed ----------------------------------------------------------------------
 
 /// What nobody sees gives no hold.
-static bool gives_hold(const FrGrownObstacle *obstacle, bool is_ground) {
-    return obstacle->is_ground == is_ground && !obstacle->is_clear;
+static bool gives_hold(const FrGrowthObstacle *obstacle) {
+    return !obstacle->is_ground && !obstacle->is_clear;
 }
 
-/// The surfaces of the ground, or of all else.
-static FrStatus take_support(const FrGrowth *growth, bool is_ground, const FrContext *context,
-                             FrDistance **support) {
-    uint32_t vertices = 0, corners = 0;
-    for (uint32_t i = 0; i < growth->obstacle_count; i++) {
-        const FrGrownObstacle *obstacle = &growth->obstacles[i];
-        if (gives_hold(obstacle, is_ground)) {
-            vertices += obstacle->vertex_count;
-            corners += obstacle->index_count;
-        }
-    }
-    FrStatus status = fr_limit_check(fr_distance_bytes(corners / 3), context->limits.bytes, "bytes",
-                                     "the surfaces that are climbed", (FrSpan){0}, context->diags);
-    if (status != FR_OK || corners == 0) {
-        return status;
-    }
-    vec3s *positions = g_new(vec3s, vertices);
-    uint32_t *indices = g_new(uint32_t, corners);
-    uint32_t vertex = 0, corner = 0;
-    for (uint32_t i = 0; i < growth->obstacle_count; i++) {
-        const FrGrownObstacle *obstacle = &growth->obstacles[i];
-        if (gives_hold(obstacle, is_ground)) {
-            for (uint32_t k = 0; k < obstacle->index_count; k++) {
-                indices[corner++] = vertex + obstacle->indices[k];
-            }
-            for (uint32_t k = 0; k < obstacle->vertex_count; k++) {
-                positions[vertex++] = obstacle->positions[k];
-            }
-        }
-    }
-    *support = fr_distance_new(positions, vertices, indices, corners);
-    g_free(positions);
-    g_free(indices);
-    return FR_OK;
+static bool is_ground_to_hold(const FrGrowthObstacle *obstacle) {
+    return obstacle->is_ground && !obstacle->is_clear;
 }
 
 FrStatus fr_growth_take_supports(FrGrowth *growth, const FrContext *context) {
@@ -62,8 +31,13 @@ FrStatus fr_growth_take_supports(FrGrowth *growth, const FrContext *context) {
     if (!climbs) {
         return FR_OK;
     }
-    FrStatus status = take_support(growth, false, context, &growth->support);
-    return status == FR_OK ? take_support(growth, true, context, &growth->support_ground) : status;
+    const char *what = "the surfaces that are climbed";
+    FrStatus status = fr_obstacles_join(growth->obstacles, growth->obstacle_count, gives_hold, what,
+                                        context, &growth->support);
+    return status != FR_OK
+               ? status
+               : fr_obstacles_join(growth->obstacles, growth->obstacle_count, is_ground_to_hold,
+                                   what, context, &growth->support_ground);
 }
 
 // ---- feeling ----------------------------------------------------------------------------------

@@ -113,16 +113,6 @@ typedef struct FrReadySpecies {
     char *name;
 } FrReadySpecies;
 
-/// An obstacle's triangles.
-typedef struct FrGrownObstacle {
-    vec3s *positions;
-    uint32_t vertex_count;
-    uint32_t *indices;
-    uint32_t index_count;
-    bool is_ground, is_clear;
-    FrSpan span;
-} FrGrownObstacle;
-
 /// A live bud where it stands, gathered from all plants for a phase of the step.
 typedef struct FrLiveBudAt {
     FrLiveBud *bud;
@@ -160,7 +150,7 @@ struct FrGrowth {
     uint32_t species_count;
     vec3s up; ///< against gravity
     FrVoxels *voxels;
-    FrGrownObstacle *obstacles; ///< own copies
+    FrGrowthObstacle *obstacles; ///< own copies
     uint32_t obstacle_count;
     FrDistance *support, *support_ground; ///< what can be climbed; NULL: nothing, or nobody climbs
     vec3s *suns;
@@ -275,8 +265,10 @@ typedef struct FrMisplaced {
     const FrSeed *first;
 } FrMisplaced;
 bool fr_seed_is_in_arena(const FrGrowthParams *params, const FrSeed *seed);
-/// True unless plants stand beside their envelope: a trunk that begins below it grows into it.
-bool fr_species_comes_within(const FrGrowthParams *params, const FrReadySpecies *species, vec3s up);
+/// True for species whose plants do not stand beside their envelope: a trunk that begins below it
+/// grows into it. The caller frees it.
+bool *fr_species_come_within(const FrGrowthParams *params, const FrReadySpecies *species,
+                             uint32_t count, vec3s up);
 void fr_misplaced_note(FrMisplaced *misplaced, const FrSeed *seed);
 void fr_misplaced_tell_left_out(const FrMisplaced *left_out, uint32_t count, bool is_all,
                                 const FrContext *context);

@@ -105,8 +105,8 @@ static void drop_species(FrGrowth *growth) {
 
 static void drop_obstacles(FrGrowth *growth) {
     for (uint32_t i = 0; i < growth->obstacle_count; i++) {
-        g_free(growth->obstacles[i].positions);
-        g_free(growth->obstacles[i].indices);
+        g_free((void *)growth->obstacles[i].positions);
+        g_free((void *)growth->obstacles[i].indices);
     }
     fr_distance_free(growth->support);
     fr_distance_free(growth->support_ground);
@@ -122,7 +122,7 @@ FrStatus fr_growth_stand_obstacles(FrGrowth *growth, const FrContext *context) {
     }
     FrStatus status = FR_OK;
     for (uint32_t i = 0; i < growth->obstacle_count && status == FR_OK; i++) {
-        const FrGrownObstacle *obstacle = &growth->obstacles[i];
+        const FrGrowthObstacle *obstacle = &growth->obstacles[i];
         const FrVoxelSurface surface = {obstacle->positions, obstacle->indices,
                                         obstacle->index_count, obstacle->is_ground, obstacle->span};
         status = fr_voxels_add_triangles(growth->voxels, &surface, end, context);
@@ -135,17 +135,13 @@ FrStatus fr_growth_stand_obstacles(FrGrowth *growth, const FrContext *context) {
 
 static void take_obstacles(FrGrowth *growth, const FrGrowthSetup *setup) {
     growth->obstacle_count = setup->obstacle_count;
-    growth->obstacles = g_new(FrGrownObstacle, setup->obstacle_count);
+    growth->obstacles = g_new(FrGrowthObstacle, setup->obstacle_count);
     for (uint32_t i = 0; i < setup->obstacle_count; i++) {
         const FrGrowthObstacle *from = &setup->obstacles[i];
-        growth->obstacles[i] = (FrGrownObstacle){
-            .positions = g_memdup2(from->positions, from->vertex_count * sizeof(vec3s)),
-            .vertex_count = from->vertex_count,
-            .indices = g_memdup2(from->indices, from->index_count * sizeof(uint32_t)),
-            .index_count = from->index_count,
-            .is_ground = from->is_ground,
-            .is_clear = from->is_clear,
-            .span = from->span};
+        FrGrowthObstacle *own = &growth->obstacles[i];
+        *own = *from;
+        own->positions = g_memdup2(from->positions, from->vertex_count * sizeof(vec3s));
+        own->indices = g_memdup2(from->indices, from->index_count * sizeof(uint32_t));
     }
 }
 
@@ -278,21 +274,10 @@ static void begin_plant(FrGrowth *growth, FrGrownPlant *plant) {
 
 /// Which seeds have no place among the obstacles that stand. The caller frees it.
 static bool *find_left_out(const FrGrowth *growth, const FrSeed *seeds, uint32_t count) {
-    FrGrowthObstacle *obstacles = g_new(FrGrowthObstacle, growth->obstacle_count + 1u);
-    for (uint32_t i = 0; i < growth->obstacle_count; i++) {
-        const FrGrownObstacle *from = &growth->obstacles[i];
-        obstacles[i] = (FrGrowthObstacle){.positions = from->positions,
-                                          .vertex_count = from->vertex_count,
-                                          .indices = from->indices,
-                                          .index_count = from->index_count,
-                                          .is_ground = from->is_ground};
-    }
-    const FrGrowthSetup setup = {
-        .params = growth->params, .obstacles = obstacles, .obstacle_count = growth->obstacle_count};
-    bool *is_left_out =
-        fr_seeds_find_left_out(&setup, growth->voxels->cell, growth->up, seeds, count);
-    g_free(obstacles);
-    return is_left_out;
+    const FrGrowthSetup setup = {.params = growth->params,
+                                 .obstacles = growth->obstacles,
+                                 .obstacle_count = growth->obstacle_count};
+    return fr_seeds_find_left_out(&setup, growth->voxels->cell, growth->up, seeds, count);
 }
 
 static FrStatus check_plants(uint64_t count, const FrContext *context) {
@@ -324,7 +309,7 @@ static void keep_plants(FrGrowth *growth, uint32_t count) {
 FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t count,
                              const FrContext *context) {
     FrStatus status = check_plants(fr_count_add(growth->plant_count, count), context);
-    if (status != FR_OK) {
+    if (status != FR_OK || count == 0) {
         return status;
     }
     fr_colony_free(growth->colony); // made anew with the new seeds
@@ -335,6 +320,8 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     growth->plant_count += count;
     FrMisplaced left_out = {0}, outside = {0};
     bool *is_left_out = find_left_out(growth, seeds, count);
+    bool *come_within =
+        fr_species_come_within(&growth->params, growth->species, growth->species_count, growth->up);
     GArray *particles = g_array_new(FALSE, FALSE, sizeof(FrParticle));
     for (uint32_t i = 0; i < count && status == FR_OK; i++) {
         FrGrownPlant *plant = &growth->plants[first + i];
@@ -346,7 +333,7 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
             fr_misplaced_note(&left_out, &seeds[i]);
             continue;
         }
-        if (!fr_species_comes_within(&growth->params, fr_species_of(growth, plant), growth->up)) {
+        if (!come_within[seeds[i].species]) {
             fr_misplaced_note(&outside, &seeds[i]);
         }
         begin_plant(growth, plant);
@@ -358,6 +345,7 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     }
     g_array_free(particles, TRUE);
     g_free(is_left_out);
+    g_free(come_within);
     if (status != FR_OK) {
         keep_plants(growth, first);
     } else {

@@ -91,7 +91,7 @@ static FrMesh *obstacle_mesh(const FrGrowth *growth) {
     }
     FrMesh *mesh = new_mesh(vertices, indices);
     for (uint32_t o = 0; o < growth->obstacle_count; o++) {
-        const FrGrownObstacle *obstacle = &growth->obstacles[o];
+        const FrGrowthObstacle *obstacle = &growth->obstacles[o];
         uint32_t first = (uint32_t)mesh->vertex_count;
         for (uint32_t i = 0; i < obstacle->vertex_count; i++) {
             add_vertex(mesh, obstacle->positions[i], (vec3s){{0, 0, 1}});

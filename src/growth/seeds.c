@@ -17,8 +17,7 @@ bool fr_seed_is_in_arena(const FrGrowthParams *params, const FrSeed *seed) {
     return true;
 }
 
-bool fr_species_comes_within(const FrGrowthParams *params, const FrReadySpecies *species,
-                             vec3s up) {
+static bool comes_within(const FrGrowthParams *params, const FrReadySpecies *species, vec3s up) {
     enum { PLACES = 1024 };
     double highest = 0;
     for (int axis = 0; axis < 3; axis++) {
@@ -31,6 +30,15 @@ bool fr_species_comes_within(const FrGrowthParams *params, const FrReadySpecies 
         is_within = fr_envelope_holds(species, at, up);
     }
     return is_within;
+}
+
+bool *fr_species_come_within(const FrGrowthParams *params, const FrReadySpecies *species,
+                             uint32_t count, vec3s up) {
+    bool *come_within = g_new(bool, count + 1u);
+    for (uint32_t i = 0; i < count; i++) {
+        come_within[i] = comes_within(params, &species[i], up);
+    }
+    return come_within;
 }
 
 void fr_misplaced_note(FrMisplaced *misplaced, const FrSeed *seed) {
@@ -210,23 +218,26 @@ bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, double width, vec3s up,
 
 void fr_seeds_check(const FrGrowthSetup *setup, double width, vec3s up, const FrSeed *seeds,
                     uint32_t count, const FrContext *context) {
-    bool *comes_within = g_new(bool, setup->species_count + 1u);
+    FrReadySpecies *species = g_new(FrReadySpecies, setup->species_count + 1u);
     for (uint32_t i = 0; i < setup->species_count; i++) {
-        FrReadySpecies species = fr_species_make_ready(&setup->species[i]);
-        comes_within[i] = fr_species_comes_within(&setup->params, &species, up);
-        fr_species_clear_ready(&species);
+        species[i] = fr_species_make_ready(&setup->species[i]);
     }
+    bool *come_within = fr_species_come_within(&setup->params, species, setup->species_count, up);
+    for (uint32_t i = 0; i < setup->species_count; i++) {
+        fr_species_clear_ready(&species[i]);
+    }
+    g_free(species);
     bool *is_left_out = fr_seeds_find_left_out(setup, width, up, seeds, count);
     FrMisplaced left_out = {0}, outside = {0};
     for (uint32_t i = 0; i < count; i++) {
         if (is_left_out[i]) {
             fr_misplaced_note(&left_out, &seeds[i]);
-        } else if (!comes_within[seeds[i].species]) {
+        } else if (!come_within[seeds[i].species]) {
             fr_misplaced_note(&outside, &seeds[i]);
         }
     }
     fr_misplaced_tell_left_out(&left_out, count, left_out.count == count, context);
     fr_misplaced_tell_outside(&outside, count, context);
     g_free(is_left_out);
-    g_free(comes_within);
+    g_free(come_within);
 }

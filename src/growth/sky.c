@@ -235,7 +235,7 @@ static void draw_triangle(const View *view, const Flat *flat) {
 /// What lies no higher than all buds shades none of them.
 static void draw_obstacles(const View *view, const FrGrowth *growth, float lowest) {
     for (uint32_t o = 0; o < growth->obstacle_count; o++) {
-        const FrGrownObstacle *obstacle = &growth->obstacles[o];
+        const FrGrowthObstacle *obstacle = &growth->obstacles[o];
         for (uint32_t i = 0; i + 2 < obstacle->index_count && !obstacle->is_clear; i += 3) {
             Flat flat;
             float top = -INFINITY;

@@ -3,10 +3,11 @@
 /// Tracing).
 #include "scene/clearance.h"
 
-#include "frond/distance.h"
+#include "growth/obstacles.h"
 #include "scene/solids.h"
 
 #include <math.h>
+#include <string.h>
 
 struct FrClearance {
     FrDistance *still;   ///< obstacles and finished plants; NULL: none
@@ -28,42 +29,31 @@ void fr_clearance_free(FrClearance *room) {
     g_free(room);
 }
 
+/// The ground leaves room.
+static bool takes_room(const FrGrowthObstacle *solid) {
+    return !solid->is_ground;
+}
+
 /// The surfaces of all solids as one; NULL without any.
 static FrStatus join(const FrSolids *solids, const FrContext *context, FrDistance **joined) {
-    uint64_t vertices = 0, corners = 0;
-    for (guint i = 0; i < solids->all->len; i++) {
-        const FrGrowthObstacle *solid = &g_array_index(solids->all, FrGrowthObstacle, i);
-        vertices += solid->is_ground ? 0 : solid->vertex_count;
-        corners += solid->is_ground ? 0 : solid->index_count;
-    }
-    *joined = NULL;
-    FrStatus status = fr_limit_check(
-        corners > UINT32_MAX ? UINT64_MAX : fr_distance_bytes(corners / 3), context->limits.bytes,
-        "bytes", "the room of plants", (FrSpan){0}, context->diags);
-    if (status != FR_OK || corners == 0) {
-        return status;
-    }
-    vec3s *positions = g_new(vec3s, vertices);
-    uint32_t *indices = g_new(uint32_t, corners);
-    uint32_t vertex = 0, corner = 0;
-    for (guint i = 0; i < solids->all->len; i++) {
-        const FrGrowthObstacle *solid = &g_array_index(solids->all, FrGrowthObstacle, i);
-        for (uint32_t k = 0; !solid->is_ground && k < solid->index_count; k++) {
-            indices[corner++] = vertex + solid->indices[k];
-        }
-        for (uint32_t k = 0; !solid->is_ground && k < solid->vertex_count; k++) {
-            positions[vertex++] = solid->positions[k];
-        }
-    }
-    *joined = fr_distance_new(positions, vertex, indices, corner);
-    g_free(positions);
-    g_free(indices);
-    return FR_OK;
+    return fr_obstacles_join((const FrGrowthObstacle *)(const void *)solids->all->data,
+                             solids->all->len, takes_room, "the room of plants", context, joined);
 }
 
 static const FrPlant *plant_of(const FrScene *scene, const FrStand *stand) {
     const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, stand->plant).plant;
     return plant == NULL || plant->nodes.count == 0 ? NULL : plant;
+}
+
+/// What moves alone is asked for by nobody, as no plant is in its own way.
+static void forget_single(FrClearance *room) {
+    uint32_t moving = 0;
+    for (uint32_t i = 0; i < room->count; i++) {
+        moving += room->is_moving[i];
+    }
+    if (moving == 1) {
+        memset(room->is_moving, 0, room->count);
+    }
 }
 
 FrStatus fr_clearance_new(const FrScene *scene, const uint8_t *is_moving, const FrContext *context,
@@ -72,11 +62,11 @@ FrStatus fr_clearance_new(const FrScene *scene, const uint8_t *is_moving, const 
     made->count = scene->plants->len;
     made->moving = g_new0(FrDistance *, made->count + 1u);
     made->is_moving = g_memdup2(is_moving, made->count + 1u);
+    forget_single(made);
     FrSolids solids = fr_solids_new();
     const vec3s nowhere[2] = {0};
     FrStatus status = fr_solids_add_surroundings(&solids, scene, NULL, nowhere, context);
-    guint stands = scene->stands->len - (scene->obstacles > 0 ? 1 : 0); // those are there already
-    for (guint i = 0; i < stands && status == FR_OK; i++) {
+    for (guint i = 0; i < fr_scene_stand_count(scene) && status == FR_OK; i++) {
         const FrStand *stand = &g_array_index(scene->stands, FrStand, i);
         const FrPlant *plant = plant_of(scene, stand);
         if (plant != NULL && !is_moving[stand->plant]) {
