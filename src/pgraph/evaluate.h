@@ -4,11 +4,11 @@
 
 #include "frond/number.h"
 
-/// The first instance at which a parameter had no value.
 /// What becomes larger is made no larger, and is told with this code, as a fault of its scale.
 #define FR_LARGEST_SCALE 1e9
 #define FR_OUTGROWN "outgrown"
 
+/// The first instance at which a parameter had no value.
 typedef struct FrValueFault {
     uint32_t component, parameter;
     uint64_t instance;

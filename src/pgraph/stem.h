@@ -99,6 +99,8 @@ double fr_stem_age_at(const FrStem *stem, double age, double at);
 double fr_stem_radius(const FrStem *stem, double at);
 /// How fast the stem sags at `at`, over its length and the sine of its angle from the vertical.
 double fr_stem_sag(const FrStem *stem, double at);
+/// Internodes that show how a measured stem bends and what its surface is like.
+uint32_t fr_stem_internodes(const FrStem *stem);
 /// Thickness along y over that along x at `at`.
 double fr_stem_flatness(const FrStem *stem, double at);
 /// The one limb of a stem that does not fork.

@@ -1,13 +1,11 @@
-/// Plants that grow bud by bud: from a document's species, seeds, solids and particles to a growth,
-/// and from that to plants of the scene.
+/// Plants that grow bud by bud: from a document's seeds, solids and particles to a growth, and from
+/// that to plants of the scene.
 #include "scene/ecosystem.h"
 
-#include "frond/daylight.h"
+#include "scene/habitat.h"
 #include "scene/particles.h"
-#include "scene/solids.h"
 #include "scene/sunken.h"
 
-#include <math.h>
 #include <string.h>
 
 struct FrEcosystem {
@@ -25,21 +23,12 @@ struct FrEcosystem {
     FrDigest world;         ///< of what stood in the way when it began
 };
 
-static void drop_species(FrSpecies *species, FrDistance **envelopes, guint count) {
-    for (guint i = 0; i < count && species != NULL; i++) {
-        fr_params_clear(fr_species_table(), &species[i].params);
-        fr_distance_free(envelopes[i]);
-    }
-    g_free(species);
-    g_free(envelopes);
-}
-
 void fr_ecosystem_free(FrEcosystem *ecosystem) {
     if (ecosystem == NULL) {
         return;
     }
     fr_growth_free(ecosystem->growth);
-    drop_species(ecosystem->species, ecosystem->envelopes, ecosystem->definitions->len);
+    fr_habitat_drop_species(ecosystem->species, ecosystem->envelopes, ecosystem->definitions->len);
     g_ptr_array_unref(ecosystem->definitions);
     g_array_unref(ecosystem->seeds);
     g_array_unref(ecosystem->plants);
@@ -142,125 +131,50 @@ void fr_ecosystem_add(FrEcosystem *ecosystem, FrScene *scene, const FrPlaced *pl
     add_seed(ecosystem, scene, &seed, &placed->stand, false);
 }
 
-// ---- the world --------------------------------------------------------------------------------
-
-static FrSpecies make_species(const FrPlantDef *definition, FrDistance **envelope) {
-    const FrSpeciesDef *def = definition->species;
-    FrSpecies species = {.name = definition->id,
-                         .order_count = def->order_count,
-                         .bark = def->bark,
-                         .leaf = def->leaf};
-    fr_params_copy(fr_species_table(), &species.params, &def->params);
-    fr_species_apply_sliders(&def->sliders, &species.params);
-    memcpy(species.orders, def->orders, sizeof species.orders);
-    if (def->envelope != NULL) {
-        *envelope = fr_distance_new(def->envelope->positions, def->envelope->vertex_count,
-                                    def->envelope->indices, def->envelope->index_count);
-    }
-    species.envelope = *envelope;
-    return species;
-}
-
-/// What a growth is set up with, and what of it is to be freed.
-typedef struct World {
-    FrGrowthSetup setup;
-    FrSpecies *species;
-    FrDistance **envelopes;
-    vec3s *suns;
-    FrSolids solids;
-} World;
-
-static void clear_world(World *world, guint species) {
-    drop_species(world->species, world->envelopes, species);
-    g_free(world->suns);
-    fr_solids_clear(&world->solids);
-}
-
-static void find_suns(World *world, const FrScene *scene) {
-    FrGrowthParams *params = &world->setup.params;
-    if (params->suns == 0) {
-        return;
-    }
-    const FrSunParams *sun = &scene->surroundings->sun;
-    FrSunPath path =
-        fr_light_sun_path(sun->latitude, scene->params->sun_azimuth, scene->params->sun_elevation);
-    world->suns = g_new(vec3s, (size_t)params->suns);
-    params->suns = (int64_t)fr_light_sun_places(path, (size_t)params->suns, world->suns);
-    world->setup.suns = world->suns;
-}
-
-/// The ground and all obstacles.
-static FrStatus add_surroundings(World *world, const FrScene *scene, const FrHills *hills,
-                                 const FrContext *context) {
-    const vec3s box[2] = {world->setup.params.min, world->setup.params.max};
-    world->solids = fr_solids_new();
-    return fr_solids_add_surroundings(&world->solids, scene, hills, box, context);
-}
-
-static void set_obstacles(World *world) {
-    world->setup.obstacles = (const FrGrowthObstacle *)(const void *)world->solids.all->data;
-    world->setup.obstacle_count = world->solids.all->len;
-}
+// ---- the habitat ------------------------------------------------------------------------------
 
 /// All that stands in the scene and does not grow bud by bud.
-static FrStatus add_solids(const FrEcosystem *ecosystem, World *world, const FrScene *scene,
+static FrStatus add_solids(const FrEcosystem *ecosystem, FrHabitat *habitat, const FrScene *scene,
                            const FrHills *hills, const FrContext *context) {
-    FrStatus status = add_surroundings(world, scene, hills, context);
+    FrStatus status = fr_habitat_add_surroundings(habitat, scene, hills, context);
     uint8_t *is_growing = g_new0(uint8_t, scene->plants->len + 1);
     fr_ecosystem_mark(ecosystem, is_growing);
     for (guint i = 0; i < fr_scene_stand_count(scene) && status == FR_OK; i++) {
         const FrStand *stand = &g_array_index(scene->stands, FrStand, i);
         const FrPlant *plant = g_array_index(scene->plants, FrScenePlant, stand->plant).plant;
         if (!is_growing[stand->plant] && plant != NULL) {
-            status = fr_solids_add_plant(&world->solids, plant, stand, context);
+            status = fr_solids_add_plant(&habitat->solids, plant, stand, context);
         }
     }
     g_free(is_growing);
-    set_obstacles(world);
     return status;
 }
 
-/// All but the solids.
-static void set_up(const FrEcosystem *ecosystem, const FrScene *scene, World *world) {
-    const FrDocument *document = ecosystem->document;
-    *world = (World){.setup = {.params = fr_document_growth(document)->params}};
-    FrGrowthParams *params = &world->setup.params;
+static FrHabitat set_up(const FrEcosystem *ecosystem, const FrScene *scene) {
+    FrHabitat habitat = fr_habitat_new(ecosystem->document, ecosystem->seed, scene);
+    FrGrowthParams *params = &habitat.setup.params;
     params->history = MAX(params->history, (int64_t)ecosystem->history);
-    params->seed = ecosystem->seed < 0 ? params->seed : ecosystem->seed % 1000000000;
-    guint count = 0;
-    const GPtrArray *plants = fr_document_plants(document);
-    world->species = g_new0(FrSpecies, plants->len + 1);
-    world->envelopes = g_new0(FrDistance *, plants->len + 1);
-    for (guint i = 0; i < plants->len; i++) {
-        const FrPlantDef *plant = g_ptr_array_index(plants, i);
-        if (plant->kind == FR_PLANT_SPECIES) {
-            world->species[count] = make_species(plant, &world->envelopes[count]);
-            count++;
-        }
-    }
-    world->setup.species = world->species;
-    world->setup.species_count = count;
-    find_suns(world, scene);
+    return habitat;
 }
 
-static FrStatus make_world(const FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
-                           const FrContext *context, World *world) {
-    set_up(ecosystem, scene, world);
-    FrStatus status = add_solids(ecosystem, world, scene, hills, context);
+static FrStatus make_habitat(const FrEcosystem *ecosystem, const FrScene *scene,
+                             const FrHills *hills, const FrContext *context, FrHabitat *habitat) {
+    *habitat = set_up(ecosystem, scene);
+    FrStatus status = add_solids(ecosystem, habitat, scene, hills, context);
     if (status != FR_OK) {
-        clear_world(world, world->setup.species_count);
+        fr_habitat_clear(habitat);
     }
     return status;
 }
 
 /// Hands the species on: the growth borrows what they point to.
-static void keep_species(FrEcosystem *ecosystem, World *world) {
-    drop_species(ecosystem->species, ecosystem->envelopes, ecosystem->definitions->len);
-    ecosystem->species = world->species;
-    ecosystem->envelopes = world->envelopes;
-    world->species = NULL;
-    world->envelopes = NULL;
-    clear_world(world, 0);
+static void keep_species(FrEcosystem *ecosystem, FrHabitat *habitat) {
+    fr_habitat_drop_species(ecosystem->species, ecosystem->envelopes, ecosystem->definitions->len);
+    ecosystem->species = habitat->species;
+    ecosystem->envelopes = habitat->envelopes;
+    habitat->species = NULL;
+    habitat->envelopes = NULL;
+    fr_habitat_clear(habitat);
 }
 
 /// Those of a previous growth are there already.
@@ -313,14 +227,14 @@ static FrStatus check_previous(const FrEcosystem *ecosystem, const FrContext *co
 }
 
 /// Takes over the growth of the previous one, or makes one.
-static FrStatus make_growth(FrEcosystem *ecosystem, const World *world, const FrContext *context) {
+static FrStatus make_growth(FrEcosystem *ecosystem, FrHabitat *habitat, const FrContext *context) {
     FrEcosystem *previous = ecosystem->previous;
     if (previous == NULL) {
-        return fr_growth_new(&world->setup, context, &ecosystem->growth);
+        return fr_growth_new(fr_habitat_setup(habitat), context, &ecosystem->growth);
     }
     FrStatus status = check_previous(ecosystem, context);
     if (status == FR_OK) {
-        status = fr_growth_change(previous->growth, &world->setup, context);
+        status = fr_growth_change(previous->growth, fr_habitat_setup(habitat), context);
     }
     if (status == FR_OK) {
         ecosystem->growth = previous->growth;
@@ -340,17 +254,17 @@ static void tell_ground(const FrEcosystem *ecosystem, uint32_t first, const FrSc
 
 static FrStatus begin(FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
                       const FrContext *context) {
-    World world;
-    FrStatus status = make_world(ecosystem, scene, hills, context, &world);
+    FrHabitat habitat;
+    FrStatus status = make_habitat(ecosystem, scene, hills, context, &habitat);
     if (status != FR_OK) {
         return status;
     }
     const FrEcosystem *previous = ecosystem->previous;
     guint old_particles =
         previous == NULL ? 0 : fr_document_growth(previous->document)->particles->len;
-    status = make_growth(ecosystem, &world, context);
-    ecosystem->world = fr_solids_digest(&world.solids);
-    keep_species(ecosystem, &world);
+    status = make_growth(ecosystem, &habitat, context);
+    ecosystem->world = fr_solids_digest(&habitat.solids);
+    keep_species(ecosystem, &habitat);
     if (status == FR_OK) {
         uint32_t old = fr_growth_plant_count(ecosystem->growth);
         const FrSeed *seeds = (const FrSeed *)(const void *)ecosystem->seeds->data;
@@ -370,7 +284,7 @@ FrStatus fr_ecosystem_begin(FrEcosystem *ecosystem, const FrScene *scene, const 
     if (status != FR_OK && previous != NULL && previous->growth == NULL) {
         // The growth goes back, with the species that it borrows by now.
         previous->growth = g_steal_pointer(&ecosystem->growth);
-        drop_species(previous->species, previous->envelopes, previous->definitions->len);
+        fr_habitat_drop_species(previous->species, previous->envelopes, previous->definitions->len);
         previous->species = g_steal_pointer(&ecosystem->species);
         previous->envelopes = g_steal_pointer(&ecosystem->envelopes);
     }
@@ -382,36 +296,35 @@ FrStatus fr_ecosystem_check(const FrEcosystem *ecosystem, const FrScene *scene,
     if (ecosystem->definitions->len == 0) {
         return FR_OK;
     }
-    World world;
-    set_up(ecosystem, scene, &world);
-    FrStatus status = add_surroundings(&world, scene, hills, context);
-    set_obstacles(&world);
+    FrHabitat habitat = set_up(ecosystem, scene);
+    FrStatus status = fr_habitat_add_surroundings(&habitat, scene, hills, context);
     Told told = listen(context);
     if (status == FR_OK) {
         tell_ground(ecosystem, 0, scene, hills, &told.context);
-        status = fr_growth_check(&world.setup, (const FrSeed *)(const void *)ecosystem->seeds->data,
+        status = fr_growth_check(fr_habitat_setup(&habitat),
+                                 (const FrSeed *)(const void *)ecosystem->seeds->data,
                                  ecosystem->seeds->len, &told.context);
     }
     if (status == FR_OK) {
         status = fr_particles_check(fr_document_growth(ecosystem->document), 0, &told.context);
     }
     tell(&told, ecosystem->document);
-    clear_world(&world, world.setup.species_count);
+    fr_habitat_clear(&habitat);
     return status;
 }
 
 FrStatus fr_ecosystem_renew(FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
                             const FrContext *context) {
-    World world;
-    FrStatus status = make_world(ecosystem, scene, hills, context, &world);
+    FrHabitat habitat;
+    FrStatus status = make_habitat(ecosystem, scene, hills, context, &habitat);
     if (status == FR_OK) {
         Told told = listen(context);
-        status = fr_growth_change(ecosystem->growth, &world.setup, &told.context);
+        status = fr_growth_change(ecosystem->growth, fr_habitat_setup(&habitat), &told.context);
         tell(&told, ecosystem->document);
         if (status == FR_OK) {
-            keep_species(ecosystem, &world);
+            keep_species(ecosystem, &habitat);
         } else {
-            clear_world(&world, ecosystem->definitions->len);
+            fr_habitat_clear(&habitat);
         }
     }
     return status;
@@ -525,20 +438,10 @@ static FrStatus run_alone(const FrGrowthSetup *setup, uint64_t seed, const FrCon
 FrStatus fr_ecosystem_grow_alone(const FrDocument *document, const FrPlantDef *definition,
                                  uint64_t seed, const FrContext *context, FrPlant **plant) {
     *plant = NULL;
-    World world = {.setup = {.params = fr_document_growth(document)->params, .species_count = 1},
-                   .solids = fr_solids_new()};
-    world.species = g_new0(FrSpecies, 1);
-    world.envelopes = g_new0(FrDistance *, 1);
-    world.species[0] = make_species(definition, &world.envelopes[0]);
-    world.setup.species = world.species;
-    world.setup.params.suns = 0;
-    const vec3s box[2] = {world.setup.params.min, world.setup.params.max};
-    fr_solids_add_level(&world.solids, box);
-    world.setup.obstacles = (const FrGrowthObstacle *)(const void *)world.solids.all->data;
-    world.setup.obstacle_count = world.solids.all->len;
+    FrHabitat habitat = fr_habitat_of_one(document, definition);
     Told told = listen(context);
-    FrStatus status = run_alone(&world.setup, seed, &told.context, plant);
+    FrStatus status = run_alone(fr_habitat_setup(&habitat), seed, &told.context, plant);
     tell(&told, document);
-    clear_world(&world, 1);
+    fr_habitat_clear(&habitat);
     return status;
 }
