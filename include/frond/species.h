@@ -145,7 +145,8 @@
     X(INTEGER, unit, "1", 1, 100, "", "", "internodes of a unit of growth")                        \
     X(INTEGER, tier, "2", 0, 8, "", "", "buds beside a node that bears any")                       \
     X(INTEGER, relays, "2", 0, 8, "", "", "axes that follow where one has ended")                  \
-    X(INTEGER, life, "0", 0, 100000, "", "", "internodes after which the axis ends; 0: never")     \
+    X(INTEGER, life, "0", 0, 100000, "", "",                                                       \
+      "internodes after which the axis ends, and relays go on for it; 0: never")                   \
     X(CHOICE, bearing, "upright", 0, 0, "", "upright level bent",                                  \
       "how it stands: grows up; grows level; rises, then bends over")                              \
     X(REAL, angle, "45", 0, 175, "deg", "", "between its bearer and it")                           \

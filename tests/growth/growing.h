@@ -67,6 +67,18 @@ static inline FrGrowthStats world_step(World *world, int count) {
     return fr_growth_stats(world->growth);
 }
 
+/// Saves what has grown, and takes it up in a new growth of the same setup.
+static inline void world_resume(World *world) {
+    GBytes *bytes = fr_growth_save(world->growth);
+    fr_growth_free(world->growth);
+    g_assert_cmpint(fr_growth_new(&world->setup, &world->context, &world->growth), ==, FR_OK);
+    gsize size;
+    const void *data = g_bytes_get_data(bytes, &size);
+    g_assert_cmpint(fr_growth_restore(world->growth, data, size, (FrSpan){0}, &world->context), ==,
+                    FR_OK);
+    g_bytes_unref(bytes);
+}
+
 static inline FrPlant *world_plant(const World *world, uint32_t index) {
     FrPlant *plant;
     g_assert_cmpint(fr_growth_plant(world->growth, index, &world->context, &plant), ==, FR_OK);

@@ -2,15 +2,20 @@
 #include "growing.h"
 #include "growth/engine.h"
 
+/// One axis that is drawn by places up to eight steps away and reaches them at two.
+static void init_drawn(World *world) {
+    world_init_plain(world);
+    world_set(world, "step", "0.3");
+    world_set(world, "influence", "2.4");
+    world_set(world, "kill", "0.6");
+    world_set(world, "laterals", "0");
+}
+
 /// E11: a direction at infinity draws every bud; a place draws those near it, and dies when
 /// reached.
 static void test_particles(void) {
     World world;
-    world_init_plain(&world);
-    world_set(&world, "step", "0.3");
-    world_set(&world, "influence", "2.4");
-    world_set(&world, "kill", "0.6");
-    world_set(&world, "laterals", "0");
+    init_drawn(&world);
     world_set(&world, "attraction", "2");
     world_set(&world, "gravitropism", "0");
     world_set(&world, "phototropism", "0");
@@ -78,12 +83,8 @@ static void test_irregular(void) {
 /// The published rule: what is reached takes the bud along.
 static void test_particle_and_bud(void) {
     World world;
-    world_init_plain(&world);
-    world_set(&world, "laterals", "0");
+    init_drawn(&world);
     world_set(&world, "particle-rule", "bud");
-    world_set(&world, "step", "0.3");
-    world_set(&world, "influence", "2.4");
-    world_set(&world, "kill", "0.6");
     world_sow_one(&world);
     FrParticle particle = {.at = {{0, 0, 1}}, .w = 1, .kill = -1};
     g_assert_cmpint(fr_growth_add_particles(world.growth, &particle, 1, &world.context), ==, FR_OK);

@@ -330,14 +330,7 @@ static void test_resumed(void) {
     sow_at(&world, 0, 0.4, 0);
     for (int i = 0; i < STEPS; i++) {
         g_assert_cmpuint(world_step(&world, 1).digest, ==, wanted[i]);
-        GBytes *bytes = fr_growth_save(world.growth);
-        fr_growth_free(world.growth);
-        g_assert_cmpint(fr_growth_new(&world.setup, &world.context, &world.growth), ==, FR_OK);
-        gsize size;
-        const void *data = g_bytes_get_data(bytes, &size);
-        g_assert_cmpint(fr_growth_restore(world.growth, data, size, (FrSpan){0}, &world.context),
-                        ==, FR_OK);
-        g_bytes_unref(bytes);
+        world_resume(&world);
     }
     world_clear(&world);
 }

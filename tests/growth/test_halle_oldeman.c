@@ -2,12 +2,17 @@
 #include "growing.h"
 #include "growth/engine.h"
 
+/// A plant of a model to which nothing is in the way, neither wood nor shade.
+static void init_unhindered(World *world, const char *model) {
+    world_init(world);
+    world_set(world, "model", model);
+    world_set(world, "collide", "no");
+    world->setup.params.light = FR_GROWTH_FULL;
+}
+
 static void test_leeuwenberg(void) {
     World world;
-    world_init(&world);
-    world_set(&world, "model", "leeuwenberg");
-    world_set(&world, "collide", "no");
-    world.setup.params.light = FR_GROWTH_FULL;
+    init_unhindered(&world, "leeuwenberg");
     world_sow_one(&world);
     world_step(&world, 15);
     const FrGrownPlant *plant = &world.growth->plants[0];
@@ -25,11 +30,8 @@ static void test_leeuwenberg(void) {
 
 static void test_rauh(void) {
     World world;
-    world_init(&world);
-    world_set(&world, "model", "rauh");
-    world_set(&world, "collide", "no");
+    init_unhindered(&world, "rauh");
     world_set(&world, "shed", "none");
-    world.setup.params.light = FR_GROWTH_FULL;
     world_sow_one(&world);
     world_step(&world, 20);
     const FrGrownPlant *plant = &world.growth->plants[0];
