@@ -168,7 +168,9 @@ static bool take_frames(CliOptions *options, const char *value) {
         g_ascii_string_to_signed(first, 10, 0, LAST, &options->first_frame, NULL) &&
         g_ascii_string_to_signed(last, 10, options->first_frame, LAST, &options->last_frame, NULL);
     if (!is_right) {
-        cli_message("--frames takes FIRST..LAST, each from 0 to %d, not '%s'", LAST, value);
+        cli_message("--frames takes FIRST..LAST, from 0 to %d, the first not after the last, "
+                    "not '%s'",
+                    LAST, value);
     }
     options->has_frames = is_right;
     g_free(first);

@@ -31,8 +31,11 @@ static void read_preset(FrReader *reader, uint32_t node, FrSpeciesDef *species) 
     if (*name != '\0' && !fr_species_preset(name, &species->params)) {
         const char *const *names = fr_species_presets();
         char *hint = fr_read_hint(reader, name, names, g_strv_length((char **)names));
+        char *all = *hint == '\0' ? g_strjoinv(", ", (char **)names) : NULL;
         fr_read_error(reader, "unknown-species", attribute->value,
-                      "no species '%.64s' ships with the program%s", name, hint);
+                      "no species '%.64s' ships with the program%s%s%s", name, hint,
+                      all != NULL ? "; there are: " : "", all != NULL ? all : "");
+        g_free(all);
         g_free(hint);
     }
     g_free(name);
