@@ -275,9 +275,10 @@ void fr_misplaced_tell_left_out(const FrMisplaced *left_out, uint32_t count, boo
 void fr_misplaced_tell_outside(const FrMisplaced *outside, uint32_t count,
                                const FrContext *context);
 /// Which seeds have no place: outside the arena, on its upper border, in an obstacle, or with no
-/// free cell of this width within two above. Those on an obstacle have one. The caller frees it.
-bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, double width, vec3s up,
-                             const FrSeed *seeds, uint32_t count);
+/// free cell within two above. Those on an obstacle have one. Cells are of this width and begin at
+/// `origin`, which an arena that has changed since may not. The caller frees it.
+bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, const double origin[3], double width,
+                             vec3s up, const FrSeed *seeds, uint32_t count);
 /// Tells which seeds of a world that is yet to be made stand wrong.
 void fr_seeds_check(const FrGrowthSetup *setup, double width, vec3s up, const FrSeed *seeds,
                     uint32_t count, const FrContext *context);

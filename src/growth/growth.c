@@ -277,7 +277,8 @@ static bool *find_left_out(const FrGrowth *growth, const FrSeed *seeds, uint32_t
     const FrGrowthSetup setup = {.params = growth->params,
                                  .obstacles = growth->obstacles,
                                  .obstacle_count = growth->obstacle_count};
-    return fr_seeds_find_left_out(&setup, growth->voxels->cell, growth->up, seeds, count);
+    return fr_seeds_find_left_out(&setup, growth->voxels->origin, growth->voxels->cell, growth->up,
+                                  seeds, count);
 }
 
 static FrStatus check_plants(uint64_t count, const FrContext *context) {

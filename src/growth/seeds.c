@@ -94,9 +94,9 @@ static FrPoint3 place_of(const FrSeed *seed, vec3s up, double cell, int k) {
 }
 
 /// The cell of a place; false if it is outside of all.
-static bool cell_at(const FrGrowthParams *params, double width, const double at[3], FrCell *cell) {
+static bool cell_at(const double origin[3], double width, const double at[3], FrCell *cell) {
     for (int axis = 0; axis < 3; axis++) {
-        double where = (at[axis] - (double)params->min.raw[axis]) / width;
+        double where = (at[axis] - origin[axis]) / width;
         if (!(where >= 0 && where < FR_VOXELS_WIDTH)) {
             return false;
         }
@@ -141,8 +141,8 @@ static uint32_t first_from(const Sorted *sorted, uint32_t count, double least) {
 
 /// Places to look at, and whose cells are taken.
 typedef struct Feet {
-    const FrGrowthParams *params;
-    double width; ///< of a cell
+    const double *origin; ///< of all cells
+    double width;         ///< of a cell
     const FrPoint3 *places;
     const Sorted *sorted;
     uint32_t count;
@@ -151,8 +151,6 @@ typedef struct Feet {
 
 /// Notes the cells that one triangle touches.
 static void note_triangle(const Feet *feet, const FrVoxelSurface *triangle) {
-    const double origin[3] = {(double)feet->params->min.x, (double)feet->params->min.y,
-                              (double)feet->params->min.z};
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (int corner = 0; corner < 3; corner++) {
         for (int axis = 0; axis < 3; axis++) {
@@ -167,8 +165,8 @@ static void note_triangle(const Feet *feet, const FrVoxelSurface *triangle) {
         const double *at = feet->places[place].at;
         FrCell cell;
         if (at[1] >= low[1] && at[1] <= high[1] && at[2] >= low[2] && at[2] <= high[2] &&
-            cell_at(feet->params, feet->width, at, &cell)) {
-            feet->is_taken[place] |= fr_voxels_touches(triangle, origin, feet->width, cell);
+            cell_at(feet->origin, feet->width, at, &cell)) {
+            feet->is_taken[place] |= fr_voxels_touches(triangle, feet->origin, feet->width, cell);
         }
     }
 }
@@ -181,16 +179,18 @@ static void note_taken(const Feet *feet, const FrGrowthObstacle *obstacle) {
     }
 }
 
-bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, double width, vec3s up,
-                             const FrSeed *seeds, uint32_t count) {
+bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, const double origin[3], double width,
+                             vec3s up, const FrSeed *seeds, uint32_t count) {
     size_t places = (size_t)count * CELLS;
     bool *is_held = g_new0(bool, places + 1), *is_taken = g_new0(bool, places + 1);
     FrPoint3 *place = g_new(FrPoint3, places + 1);
     for (size_t i = 0; i < places; i++) {
         place[i] = place_of(&seeds[i / CELLS], up, width, (int)(i % CELLS));
+        FrCell cell;
+        is_taken[i] = !cell_at(origin, width, place[i].at, &cell);
     }
     Sorted *sorted = sort_places(place, (uint32_t)places);
-    const Feet feet = {&setup->params, width, place, sorted, (uint32_t)places, is_taken};
+    const Feet feet = {origin, width, place, sorted, (uint32_t)places, is_taken};
     for (uint32_t i = 0; i < setup->obstacle_count; i++) {
         const FrGrowthObstacle *obstacle = &setup->obstacles[i];
         if (!obstacle->is_ground) {
@@ -227,7 +227,9 @@ void fr_seeds_check(const FrGrowthSetup *setup, double width, vec3s up, const Fr
         fr_species_clear_ready(&species[i]);
     }
     g_free(species);
-    bool *is_left_out = fr_seeds_find_left_out(setup, width, up, seeds, count);
+    const double origin[3] = {(double)setup->params.min.x, (double)setup->params.min.y,
+                              (double)setup->params.min.z};
+    bool *is_left_out = fr_seeds_find_left_out(setup, origin, width, up, seeds, count);
     FrMisplaced left_out = {0}, outside = {0};
     for (uint32_t i = 0; i < count; i++) {
         if (is_left_out[i]) {

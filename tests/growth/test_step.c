@@ -74,6 +74,26 @@ static void test_checked_seeds(void) {
     world_clear(&world);
 }
 
+/// Cells begin where the arena began at first, so nothing grows where it was widened downwards.
+static void test_widened(void) {
+    World world;
+    world_init(&world);
+    world_sow_one(&world);
+    world_step(&world, 1);
+    world.setup.params.min.x = -30;
+    g_assert_cmpint(fr_growth_change(world.growth, &world.setup, &world.context), ==, FR_OK);
+    const FrSeed seeds[2] = {{.id = 2, .at = {-25, 0, 0}}, {.id = 3, .at = {-15, 0, 0}}};
+    g_assert_cmpint(fr_growth_add_seeds(world.growth, seeds, 2, &world.context), ==, FR_OK);
+    g_assert_cmpuint(fr_diags_count(world.context.diags), ==, 1);
+    const FrDiag *diag = fr_diags_get(world.context.diags, 0);
+    g_assert_cmpstr(diag->code, ==, "seed-place");
+    g_assert_nonnull(strstr(diag->text, "-25,0,0"));
+    world_step(&world, 2);
+    g_assert_false(fr_growth_is_alive(world.growth, 1));
+    g_assert_true(fr_growth_is_alive(world.growth, 2));
+    world_clear(&world);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func(
@@ -82,5 +102,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/growth/step/a setup is checked without making its world", test_checked);
     g_test_add_func("/growth/step/seeds in obstacles and beside envelopes are told by checking",
                     test_checked_seeds);
+    g_test_add_func("/growth/step/a seed outside of all cells is told where the arena was widened",
+                    test_widened);
     return g_test_run();
 }
