@@ -50,6 +50,11 @@ void studio_name(GtkWidget *widget, const char *name) {
     studio_name_inside(widget, name);
 }
 
+void studio_tell(GtkWidget *widget, const char *tip) {
+    gtk_widget_set_tooltip_text(widget, tip);
+    studio_name(widget, tip);
+}
+
 void studio_describe(GtkWidget *widget, const char *words) {
     gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_DESCRIPTION,
                                    words, -1);

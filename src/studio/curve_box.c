@@ -3,6 +3,7 @@
 #include "frond/curve.h"
 #include "studio/accessible.h"
 #include "studio/model/values.h"
+#include "studio/widgets.h"
 
 #include <math.h>
 #include <string.h>
@@ -374,11 +375,8 @@ static void studio_curve_box_init(StudioCurveBox *box) {
     box->grabbed = box->chosen = FR_NONE;
     box->top = 1;
     gtk_widget_set_focusable(widget, TRUE);
-    GtkGesture *drag = gtk_gesture_drag_new();
-    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_begin), box);
-    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag), box);
-    g_signal_connect(drag, "drag-end", G_CALLBACK(on_end), box);
-    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(drag));
+    studio_listen_to_drags(widget, G_CALLBACK(on_begin), G_CALLBACK(on_drag), G_CALLBACK(on_end),
+                           box);
     GtkEventController *keys = gtk_event_controller_key_new();
     g_signal_connect(keys, "key-pressed", G_CALLBACK(on_key), box);
     g_signal_connect(keys, "key-released", G_CALLBACK(on_release), box);

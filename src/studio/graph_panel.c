@@ -3,6 +3,7 @@
 #include "studio/accessible.h"
 #include "studio/model/builder.h"
 #include "studio/model/values.h"
+#include "studio/widgets.h"
 
 #include <math.h>
 #include <string.h>
@@ -261,15 +262,9 @@ static void studio_graph_panel_class_init(StudioGraphPanelClass *class) {
 
 static void add_controllers(StudioGraphPanel *panel) {
     GtkWidget *widget = GTK_WIDGET(panel);
-    GtkGesture *drag = gtk_gesture_drag_new();
-    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_begin), panel);
-    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag), panel);
-    g_signal_connect(drag, "drag-end", G_CALLBACK(on_end), panel);
-    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(drag));
-    GtkGesture *menu = gtk_gesture_click_new();
-    gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(menu), GDK_BUTTON_SECONDARY);
-    g_signal_connect(menu, "pressed", G_CALLBACK(on_menu), panel);
-    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(menu));
+    studio_listen_to_drags(widget, G_CALLBACK(on_begin), G_CALLBACK(on_drag), G_CALLBACK(on_end),
+                           panel);
+    studio_listen_for_menu(widget, G_CALLBACK(on_menu), panel);
     studio_graph_add_keys(panel);
     GtkEventController *motion = gtk_event_controller_motion_new();
     g_signal_connect(motion, "motion", G_CALLBACK(on_motion), panel);

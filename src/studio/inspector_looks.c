@@ -2,6 +2,7 @@
 #include "studio/inspector_private.h"
 
 #include "studio/material_picker.h"
+#include "studio/model/borrowed.h"
 #include "studio/model/commands.h"
 #include "studio/model/materials.h"
 #include "studio/picture_picker.h"
@@ -21,7 +22,7 @@ static void on_wanted(GtkWidget *picker, gboolean is_copy, StudioInspector *insp
     StudioParamRow *row = row_of(picker);
     const FrContents *contents = studio_document_contents(inspector->document);
     const char *value = studio_param_row_value(row);
-    uint32_t like = is_copy ? studio_find_material(contents, value) : FR_NONE;
+    uint32_t like = is_copy ? studio_tag_find(contents, 0, STUDIO_TAG_MATERIAL, value) : FR_NONE;
     char *id = NULL;
     if (studio_add_material(inspector->document, like, studio_inspector_element(inspector),
                             studio_param_row_attribute(row), &id)) {

@@ -1,6 +1,7 @@
 #include "studio/key_track.h"
 
 #include "studio/accessible.h"
+#include "studio/widgets.h"
 
 #include <math.h>
 
@@ -241,15 +242,9 @@ static void studio_key_track_init(StudioKeyTrack *track) {
     g_signal_connect(widget, "query-tooltip", G_CALLBACK(on_tip), NULL);
     studio_name(widget, "Key frames of the selected component");
     studio_describe(widget, "Arrow keys go from key to key, with Alt they move it; Delete removes");
-    GtkGesture *drag = gtk_gesture_drag_new();
-    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_begin), track);
-    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag), track);
-    g_signal_connect(drag, "drag-end", G_CALLBACK(on_end), track);
-    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(drag));
-    GtkGesture *menu = gtk_gesture_click_new();
-    gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(menu), GDK_BUTTON_SECONDARY);
-    g_signal_connect(menu, "pressed", G_CALLBACK(on_menu), track);
-    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(menu));
+    studio_listen_to_drags(widget, G_CALLBACK(on_begin), G_CALLBACK(on_drag), G_CALLBACK(on_end),
+                           track);
+    studio_listen_for_menu(widget, G_CALLBACK(on_menu), track);
     GtkEventController *keys = gtk_event_controller_key_new();
     g_signal_connect(keys, "key-pressed", G_CALLBACK(on_key), track);
     gtk_widget_add_controller(widget, keys);

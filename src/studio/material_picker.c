@@ -1,6 +1,7 @@
 #include "studio/material_picker.h"
 
 #include "studio/accessible.h"
+#include "studio/model/borrowed.h"
 #include "studio/model/materials.h"
 
 enum { BUTTON_SIZE = 20, ROW_SIZE = 32, SHARPER = 2 };
@@ -104,8 +105,8 @@ static void on_open(GtkWidget *popover, StudioMaterialPicker *picker) {
             add_row(picker, i);
         }
     }
-    gtk_widget_set_sensitive(picker->copy,
-                             studio_find_material(contents, picker->value) != FR_NONE);
+    gtk_widget_set_sensitive(
+        picker->copy, studio_tag_find(contents, 0, STUDIO_TAG_MATERIAL, picker->value) != FR_NONE);
 }
 
 static GtkWidget *flat_button(const char *title, const char *name, GCallback clicked,
@@ -148,7 +149,8 @@ void studio_material_picker_show(StudioMaterialPicker *picker, const StudioDocum
     char *own = g_strdup(value);
     g_free(picker->value);
     picker->value = own;
-    paint(picker, picker->swatch, studio_find_material(studio_document_contents(document), own),
+    paint(picker, picker->swatch,
+          studio_tag_find(studio_document_contents(document), 0, STUDIO_TAG_MATERIAL, own),
           BUTTON_SIZE);
 }
 
@@ -173,8 +175,7 @@ static void studio_material_picker_init(StudioMaterialPicker *picker) {
     gtk_menu_button_set_popover(GTK_MENU_BUTTON(picker->button), make_popover(picker));
     gtk_widget_add_css_class(picker->button, "flat");
     gtk_widget_set_valign(picker->button, GTK_ALIGN_CENTER);
-    gtk_widget_set_tooltip_text(picker->button, "Choose a material");
-    studio_name(picker->button, "Choose a material");
+    studio_tell(picker->button, "Choose a material");
     gtk_box_append(GTK_BOX(picker), picker->button);
 }
 

@@ -5,6 +5,7 @@
 #include "studio/model/keys.h"
 #include "studio/model/materials.h"
 #include "studio/model/values.h"
+#include "studio/widgets.h"
 
 #include <math.h>
 #include <string.h>
@@ -146,16 +147,6 @@ static void on_follow(GtkButton *button, StudioParamRow *row) {
 
 // ---- its parts ---------------------------------------------------------------------------------
 
-static GtkWidget *flat_button(const char *icon, const char *tip) {
-    GtkWidget *button = gtk_button_new_from_icon_name(icon);
-    gtk_widget_add_css_class(button, "flat");
-    gtk_widget_add_css_class(button, "row-button");
-    gtk_widget_set_tooltip_text(button, tip);
-    gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
-    studio_name(button, tip);
-    return button;
-}
-
 static GtkWidget *make_entry(StudioParamRow *row) {
     row->entry = gtk_entry_new();
     gtk_editable_set_width_chars(GTK_EDITABLE(row->entry), 10);
@@ -222,14 +213,14 @@ static GtkWidget *make_line(StudioParamRow *row, const char *title) {
     gtk_label_set_wrap(GTK_LABEL(row->name), TRUE);
     gtk_widget_set_hexpand(row->name, TRUE);
     gtk_box_append(GTK_BOX(line), row->name);
-    row->reset = flat_button("edit-undo-symbolic", "Back to the default");
+    row->reset = studio_row_button("edit-undo-symbolic", "Back to the default");
     g_signal_connect(row->reset, "clicked", G_CALLBACK(on_reset), row);
     gtk_box_append(GTK_BOX(line), row->reset);
     // When it lives says what its age is: that cannot go by its age.
     bool is_of_life =
         strcmp(row->param->name, "birth") == 0 || strcmp(row->param->name, "time_scale") == 0;
     if (row->param->kind == FR_PARAM_NUMBER && !is_of_life) {
-        row->key = flat_button("studio-key-symbolic", "Set a key frame at this time");
+        row->key = studio_row_button("studio-key-symbolic", "Set a key frame at this time");
         gtk_widget_add_css_class(row->key, "key-button");
         char *name = g_strconcat(row->attribute, "-key", NULL);
         gtk_widget_set_name(row->key, name);
@@ -238,12 +229,12 @@ static GtkWidget *make_line(StudioParamRow *row, const char *title) {
         gtk_box_append(GTK_BOX(line), row->key);
     }
     if (names_something(row->param)) {
-        row->offer = flat_button("go-jump-symbolic", "Show what it names");
+        row->offer = studio_row_button("go-jump-symbolic", "Show what it names");
         g_signal_connect(row->offer, "clicked", G_CALLBACK(on_follow), row);
         gtk_box_append(GTK_BOX(line), row->offer);
     }
     if (strcmp(row->param->name, "seed") == 0) {
-        GtkWidget *dice = flat_button("studio-dice-symbolic", "Another seed");
+        GtkWidget *dice = studio_row_button("studio-dice-symbolic", "Another seed");
         g_signal_connect(dice, "clicked", G_CALLBACK(on_dice), row);
         gtk_box_append(GTK_BOX(line), dice);
     }
@@ -322,9 +313,7 @@ static void show_key(StudioParamRow *row, const char *text, double *value) {
     gtk_widget_set_visible(row->key, may);
     gtk_button_set_icon_name(GTK_BUTTON(row->key),
                              row->is_at_key ? "studio-key-set-symbolic" : "studio-key-symbolic");
-    gtk_widget_set_tooltip_text(row->key, tip);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(row->key), GTK_ACCESSIBLE_PROPERTY_LABEL, tip,
-                                   -1);
+    studio_tell(row->key, tip);
     if (row->has_keys) {
         gtk_widget_add_css_class(row->key, "keyed");
     } else {

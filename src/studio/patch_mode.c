@@ -1,6 +1,5 @@
 #include "studio/patch_mode.h"
 
-#include "studio/accessible.h"
 #include "studio/model/patch.h"
 #include "studio/window_private.h"
 

@@ -1,9 +1,8 @@
 #include "studio/picture_picker.h"
 
-#include "studio/accessible.h"
-
 #include "studio/model/materials.h"
 #include "studio/swatches.h"
+#include "studio/widgets.h"
 
 enum { THUMBNAIL = 48, SHOWN = 24 };
 
@@ -114,12 +113,7 @@ static void studio_picture_picker_init(StudioPicturePicker *picker) {
     gtk_picture_set_can_shrink(GTK_PICTURE(picker->picture), TRUE);
     gtk_widget_set_size_request(picker->picture, SHOWN, SHOWN);
     gtk_widget_set_visible(picker->picture, FALSE);
-    GtkWidget *button = gtk_button_new_from_icon_name("document-open-symbolic");
-    gtk_widget_add_css_class(button, "flat");
-    gtk_widget_add_css_class(button, "row-button");
-    gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
-    gtk_widget_set_tooltip_text(button, "Choose a picture");
-    studio_name(button, "Choose a picture");
+    GtkWidget *button = studio_row_button("document-open-symbolic", "Choose a picture");
     g_signal_connect(button, "clicked", G_CALLBACK(on_clicked), picker);
     gtk_box_append(GTK_BOX(picker), picker->picture);
     gtk_box_append(GTK_BOX(picker), button);

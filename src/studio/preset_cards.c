@@ -79,8 +79,7 @@ static GtkWidget *make_menu(const char *name) {
     gtk_widget_set_halign(button, GTK_ALIGN_END);
     gtk_widget_set_valign(button, GTK_ALIGN_START);
     gtk_widget_add_css_class(button, "preset-menu");
-    gtk_widget_set_tooltip_text(button, "Rename or remove");
-    studio_name(button, "Rename or remove");
+    studio_tell(button, "Rename or remove");
     g_object_unref(menu);
     return button;
 }
@@ -102,8 +101,7 @@ static GtkWidget *make_card(const char *name, bool is_own, const char *file) {
     gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(child), box);
     gtk_widget_add_css_class(child, "preset");
     gtk_widget_set_name(child, name);
-    gtk_widget_set_tooltip_text(child, title);
-    studio_name(child, title);
+    studio_tell(child, title);
     g_free(title);
     return child;
 }

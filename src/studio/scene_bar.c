@@ -214,8 +214,7 @@ static GtkWidget *make_palette(void) {
         gtk_button_set_icon_name(GTK_BUTTON(button), kind->icon);
         gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "win.scene-tool");
         gtk_actionable_set_action_target(GTK_ACTIONABLE(button), "s", kind->name);
-        gtk_widget_set_tooltip_text(button, kind->tip);
-        studio_name(button, kind->tip);
+        studio_tell(button, kind->tip);
         gtk_widget_add_css_class(button, "flat");
         char *name = g_strdup_printf("tool-%s", kind->name);
         gtk_widget_set_name(button, name);

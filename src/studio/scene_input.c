@@ -1,5 +1,6 @@
 /// The pointer and the keys of the scene's tools, taken before the viewport turns its view by them.
 #include "studio/scene_tool_private.h"
+#include "studio/widgets.h"
 
 #include <string.h>
 
@@ -150,13 +151,10 @@ static gboolean on_render(GtkGLArea *area, GdkGLContext *context, StudioSceneToo
 
 void studio_scene_listen(StudioSceneTool *tool) {
     GtkWidget *viewport = GTK_WIDGET(tool->window->viewport);
-    GtkGesture *drag = gtk_gesture_drag_new();
+    GtkGesture *drag = studio_listen_to_drags(viewport, G_CALLBACK(on_begin), G_CALLBACK(on_update),
+                                              G_CALLBACK(on_end), tool);
     gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(drag), GDK_BUTTON_PRIMARY);
     gtk_event_controller_set_propagation_phase(GTK_EVENT_CONTROLLER(drag), GTK_PHASE_CAPTURE);
-    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_begin), tool);
-    g_signal_connect(drag, "drag-update", G_CALLBACK(on_update), tool);
-    g_signal_connect(drag, "drag-end", G_CALLBACK(on_end), tool);
-    gtk_widget_add_controller(viewport, GTK_EVENT_CONTROLLER(drag));
     GtkEventController *motion = gtk_event_controller_motion_new();
     g_signal_connect(motion, "motion", G_CALLBACK(on_motion), tool);
     g_signal_connect(motion, "leave", G_CALLBACK(on_leave), tool);

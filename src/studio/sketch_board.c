@@ -3,6 +3,7 @@
 #include "studio/accessible.h"
 #include "studio/model/sketch_shape.h"
 #include "studio/sketch_canvas.h"
+#include "studio/widgets.h"
 
 #include <math.h>
 #include <string.h>
@@ -378,11 +379,8 @@ static void studio_sketch_board_init(StudioSketchBoard *board) {
     gtk_widget_set_vexpand(widget, TRUE);
     gtk_widget_set_overflow(widget, GTK_OVERFLOW_HIDDEN);
     gtk_widget_set_cursor_from_name(widget, "crosshair");
-    GtkGesture *drag = gtk_gesture_drag_new();
-    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_begin), board);
-    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag), board);
-    g_signal_connect(drag, "drag-end", G_CALLBACK(on_end), board);
-    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(drag));
+    studio_listen_to_drags(widget, G_CALLBACK(on_begin), G_CALLBACK(on_drag), G_CALLBACK(on_end),
+                           board);
     GtkEventController *scroll =
         gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
     g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), board);

@@ -5,6 +5,7 @@
 #include "studio/wrap_box.h"
 
 #include "studio/model/commands.h"
+#include "studio/widgets.h"
 
 #include <string.h>
 
@@ -13,11 +14,6 @@
 typedef struct Button {
     const char *label, *target, *tip;
 } Button;
-
-static void name_it(GtkWidget *widget, const char *tip) {
-    gtk_widget_set_tooltip_text(widget, tip);
-    studio_name(widget, tip);
-}
 
 // Buttons of which one is down: the values of an action.
 static GtkWidget *choice_of(const char *action, const Button *buttons, size_t count) {
@@ -31,13 +27,6 @@ static GtkWidget *choice_of(const char *action, const Button *buttons, size_t co
         gtk_box_append(GTK_BOX(box), button);
     }
     return box;
-}
-
-static GtkWidget *icon_button(const char *icon, const char *action, const char *tip) {
-    GtkWidget *button = gtk_button_new_from_icon_name(icon);
-    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-    name_it(button, tip);
-    return button;
 }
 
 static GtkWidget *toggle(const char *label, const char *action, const char *tip) {
@@ -160,7 +149,7 @@ static GtkWidget *make_strokes(StudioSketchPanel *panel) {
     gtk_stack_add_named(GTK_STACK(panel->pages), GTK_WIDGET(panel->viewport), "whole");
     panel->instances = gtk_spin_button_new_with_range(1, MOST_INSTANCES, 1);
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(panel->instances), panel->count);
-    name_it(panel->instances, "Number of instances on the sheet");
+    studio_tell(panel->instances, "Number of instances on the sheet");
     g_signal_connect(panel->instances, "value-changed", G_CALLBACK(on_count), panel);
     GtkWidget *first[] = {
         choice_of("win.sketch-page", pages, G_N_ELEMENTS(pages)),
@@ -168,12 +157,12 @@ static GtkWidget *make_strokes(StudioSketchPanel *panel) {
     GtkWidget *place = gtk_button_new_with_label("Stand in Scene");
     gtk_actionable_set_action_name(GTK_ACTIONABLE(place), "win.sketch-place");
     gtk_widget_set_tooltip_text(place, "Stand this instance, or all of the sheet, in the scene");
-    GtkWidget *second[] = {
-        panel->instances,
-        icon_button("studio-dice-symbolic", "win.sketch-dice", "Other instances: another seed"),
-        icon_button("media-playback-start-symbolic", "win.sketch-play",
-                    "Let wind, sun and rain come up"),
-        place};
+    GtkWidget *second[] = {panel->instances,
+                           studio_action_button("studio-dice-symbolic", "win.sketch-dice",
+                                                "Other instances: another seed"),
+                           studio_action_button("media-playback-start-symbolic", "win.sketch-play",
+                                                "Let wind, sun and rain come up"),
+                           place};
     return pane_of("Drawn", tools_of(first, G_N_ELEMENTS(first)),
                    tools_of(second, G_N_ELEMENTS(second)), panel->pages);
 }
@@ -201,7 +190,8 @@ static GtkWidget *make_height(StudioSketchPanel *panel) {
     gtk_scale_add_mark(GTK_SCALE(panel->height), 0, GTK_POS_RIGHT, NULL);
     gtk_widget_set_vexpand(panel->height, TRUE);
     gtk_widget_set_name(panel->height, "sketch-height");
-    name_it(panel->height, "Height of the board; the wheel and Page Up, Page Down move it, too");
+    studio_tell(panel->height,
+                "Height of the board; the wheel and Page Up, Page Down move it, too");
     g_signal_connect(panel->height, "value-changed", G_CALLBACK(on_height), panel);
     panel->height_text = gtk_label_new("");
     gtk_label_set_width_chars(GTK_LABEL(panel->height_text), 8);
@@ -272,11 +262,11 @@ static GtkWidget *make_skeleton(StudioSketchPanel *panel) {
     g_signal_connect(panel->skeleton, "key", G_CALLBACK(studio_sketch_on_key), panel);
     g_signal_connect(panel->skeleton, "turned", G_CALLBACK(on_turned), panel);
     panel->branches = gtk_drop_down_new_from_strings((const char *const[]){"Painted", "All", NULL});
-    name_it(panel->branches, "Which branches: those painted, all, or all of a component");
+    studio_tell(panel->branches, "Which branches: those painted, all, or all of a component");
     g_signal_connect(panel->branches, "notify::selected", G_CALLBACK(on_branches), panel);
     GtkWidget *first[] = {choice_of("win.sketch-tool", tools, G_N_ELEMENTS(tools)),
-                          icon_button("edit-clear-symbolic", "win.sketch-clear",
-                                      "Choose nothing (Escape in the skeleton)")};
+                          studio_action_button("edit-clear-symbolic", "win.sketch-clear",
+                                               "Choose nothing (Escape in the skeleton)")};
     GtkWidget *second[] = {panel->branches,
                            choice_of("win.sketch-apply", applies, G_N_ELEMENTS(applies)),
                            toggle("One Path", "win.sketch-keeps-path",
@@ -342,8 +332,7 @@ static GtkWidget *popover_button(const char *label, const char *tip, GtkWidget *
     gtk_popover_set_child(GTK_POPOVER(popover), scrolled(content, width));
     gtk_menu_button_set_popover(GTK_MENU_BUTTON(button), popover);
     gtk_menu_button_set_label(GTK_MENU_BUTTON(button), label);
-    gtk_widget_set_tooltip_text(button, tip);
-    studio_name(button, tip);
+    studio_tell(button, tip);
     return button;
 }
 
@@ -365,7 +354,7 @@ static GtkWidget *make_growth(StudioSketchPanel *panel) {
 
 static GtkWidget *make_bar(StudioSketchPanel *panel) {
     panel->variation = gtk_drop_down_new_from_strings((const char *const[]){"New variation", NULL});
-    name_it(panel->variation, "The variation that strokes are added to");
+    studio_tell(panel->variation, "The variation that strokes are added to");
     g_signal_connect(panel->variation, "notify::selected", G_CALLBACK(on_variation), panel);
     panel->marks = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
     panel->drawn = popover_button("Drawn: 0", "Strokes and indicators, to look at and remove",

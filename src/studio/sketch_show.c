@@ -1,9 +1,9 @@
 /// What the panes of the sketch panel show.
-#include "studio/accessible.h"
 #include "studio/param_row.h"
 #include "studio/sketch_panel_private.h"
 
 #include "studio/model/commands.h"
+#include "studio/widgets.h"
 
 #include <adwaita.h>
 #include <math.h>
@@ -288,10 +288,7 @@ static void show_marks(StudioSketchPanel *panel, const FrContents *contents) {
         GtkWidget *label = gtk_label_new(words);
         gtk_label_set_xalign(GTK_LABEL(label), 0);
         gtk_widget_set_hexpand(label, TRUE);
-        GtkWidget *button = gtk_button_new_from_icon_name("user-trash-symbolic");
-        gtk_widget_add_css_class(button, "flat");
-        gtk_widget_set_tooltip_text(button, "Remove it");
-        studio_name(button, "Remove it");
+        GtkWidget *button = studio_flat_button("user-trash-symbolic", "Remove it");
         g_object_set_data(G_OBJECT(button), "mark", GUINT_TO_POINTER(i));
         g_signal_connect(button, "clicked", G_CALLBACK(on_remove_mark), panel);
         gtk_box_append(GTK_BOX(row), label);

@@ -3,6 +3,7 @@
 #include "studio/accessible.h"
 #include "studio/model/sketch_shape.h"
 #include "studio/sketch_canvas.h"
+#include "studio/widgets.h"
 
 #include <math.h>
 
@@ -199,12 +200,9 @@ static void studio_sketch_view_init(StudioSketchView *view) {
     gtk_widget_set_hexpand(widget, TRUE);
     gtk_widget_set_vexpand(widget, TRUE);
     gtk_widget_set_overflow(widget, GTK_OVERFLOW_HIDDEN);
-    GtkGesture *drag = gtk_gesture_drag_new();
+    GtkGesture *drag = studio_listen_to_drags(widget, G_CALLBACK(on_begin), G_CALLBACK(on_drag),
+                                              G_CALLBACK(on_end), view);
     gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(drag), 0);
-    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_begin), view);
-    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag), view);
-    g_signal_connect(drag, "drag-end", G_CALLBACK(on_end), view);
-    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(drag));
     GtkEventController *scroll =
         gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
     g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), view);

@@ -3,6 +3,7 @@
 #include "studio/accessible.h"
 #include "studio/model/lstring.h"
 #include "studio/model/values.h"
+#include "studio/widgets.h"
 #include "studio/window_private.h"
 
 #include <math.h>
@@ -383,26 +384,15 @@ static void on_page(GtkButton *button, StudioStringPanel *panel) {
 
 // ---- life --------------------------------------------------------------------------------------
 
-static GtkWidget *add_button(StudioStringPanel *panel, GtkWidget *bar, const char *icon,
-                             const char *tip, GCallback callback) {
-    GtkWidget *button = gtk_button_new_from_icon_name(icon);
-    gtk_widget_add_css_class(button, "flat");
-    gtk_widget_set_tooltip_text(button, tip);
-    gtk_widget_set_name(button, tip);
-    studio_name(button, tip);
-    g_signal_connect(button, "clicked", callback, panel);
-    gtk_box_append(GTK_BOX(bar), button);
-    return button;
-}
-
 static GtkWidget *make_bar(StudioStringPanel *panel) {
     GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
     gtk_widget_add_css_class(bar, "string-bar");
     GCallback step = G_CALLBACK(on_step), page = G_CALLBACK(on_page);
     panel->begin =
-        add_button(panel, bar, "media-skip-backward-symbolic", "Back to the axiom", step);
-    panel->back = add_button(panel, bar, "media-seek-backward-symbolic", "A step less", step);
-    panel->next = add_button(panel, bar, "media-seek-forward-symbolic", "A step more", step);
+        studio_bar_button(bar, "media-skip-backward-symbolic", "Back to the axiom", step, panel);
+    panel->back =
+        studio_bar_button(bar, "media-seek-backward-symbolic", "A step less", step, panel);
+    panel->next = studio_bar_button(bar, "media-seek-forward-symbolic", "A step more", step, panel);
     panel->title = gtk_label_new("");
     gtk_widget_add_css_class(panel->title, "numeric");
     gtk_label_set_wrap(GTK_LABEL(panel->title), TRUE);
@@ -411,8 +401,8 @@ static GtkWidget *make_bar(StudioStringPanel *panel) {
     gtk_widget_set_margin_start(panel->title, 6);
     gtk_widget_set_hexpand(panel->title, TRUE);
     gtk_box_append(GTK_BOX(bar), panel->title);
-    panel->earlier = add_button(panel, bar, "go-previous-symbolic", "Earlier modules", page);
-    panel->later = add_button(panel, bar, "go-next-symbolic", "Later modules", page);
+    panel->earlier = studio_bar_button(bar, "go-previous-symbolic", "Earlier modules", page, panel);
+    panel->later = studio_bar_button(bar, "go-next-symbolic", "Later modules", page, panel);
     return bar;
 }
 

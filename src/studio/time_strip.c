@@ -6,6 +6,7 @@
 #include "studio/model/keys.h"
 #include "studio/model/place.h"
 #include "studio/model/values.h"
+#include "studio/widgets.h"
 
 #include <math.h>
 #include <string.h>
@@ -270,27 +271,15 @@ void studio_time_strip_show_growth(StudioTimeStrip *strip, uint64_t step, uint64
     g_free(text);
 }
 
-static GtkWidget *growth_button(StudioTimeStrip *strip, GtkWidget *box, const char *icon,
-                                const char *tip, GCallback callback) {
-    GtkWidget *button = gtk_button_new_from_icon_name(icon);
-    gtk_widget_add_css_class(button, "flat");
-    gtk_widget_set_tooltip_text(button, tip);
-    gtk_widget_set_name(button, tip);
-    studio_name(button, tip);
-    g_signal_connect(button, "clicked", callback, strip);
-    gtk_box_append(GTK_BOX(box), button);
-    return button;
-}
-
 static GtkWidget *make_growth(StudioTimeStrip *strip) {
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
-    strip->begin = growth_button(strip, box, "media-skip-backward-symbolic", "Back to the seeds",
-                                 G_CALLBACK(on_begin));
-    strip->undo = growth_button(strip, box, "media-seek-backward-symbolic", "A step back",
-                                G_CALLBACK(on_step_back));
-    strip->grow = growth_button(strip, box, "media-playback-start-symbolic", "Grow or pause",
-                                G_CALLBACK(on_grow));
-    growth_button(strip, box, "media-seek-forward-symbolic", "A step", G_CALLBACK(on_one_step));
+    strip->begin = studio_bar_button(box, "media-skip-backward-symbolic", "Back to the seeds",
+                                     G_CALLBACK(on_begin), strip);
+    strip->undo = studio_bar_button(box, "media-seek-backward-symbolic", "A step back",
+                                    G_CALLBACK(on_step_back), strip);
+    strip->grow = studio_bar_button(box, "media-playback-start-symbolic", "Grow or pause",
+                                    G_CALLBACK(on_grow), strip);
+    studio_bar_button(box, "media-seek-forward-symbolic", "A step", G_CALLBACK(on_one_step), strip);
     strip->grown = gtk_label_new("");
     gtk_widget_add_css_class(strip->grown, "numeric");
     gtk_widget_set_margin_start(strip->grown, 8);
@@ -367,11 +356,8 @@ void studio_time_strip_show(StudioTimeStrip *strip, StudioDocument *document, ui
 
 static GtkWidget *key_button(StudioTimeStrip *strip, const char *icon, const char *tip,
                              GCallback callback) {
-    GtkWidget *button = gtk_button_new_from_icon_name(icon);
-    gtk_widget_add_css_class(button, "flat");
-    gtk_widget_set_tooltip_text(button, tip);
+    GtkWidget *button = studio_flat_button(icon, tip);
     gtk_widget_set_name(button, tip);
-    studio_name(button, tip);
     gtk_widget_set_visible(button, FALSE);
     g_signal_connect(button, "clicked", callback, strip);
     return button;
@@ -393,10 +379,7 @@ static GtkWidget *make_track(StudioTimeStrip *strip) {
 
 static GtkWidget *make_clock(StudioTimeStrip *strip) {
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
-    strip->play = gtk_button_new_from_icon_name("media-playback-start-symbolic");
-    gtk_widget_add_css_class(strip->play, "flat");
-    gtk_widget_set_tooltip_text(strip->play, "Let the clock run");
-    studio_name(strip->play, "Let the clock run");
+    strip->play = studio_flat_button("media-playback-start-symbolic", "Let the clock run");
     g_signal_connect(strip->play, "clicked", G_CALLBACK(on_play), strip);
     strip->scale = gtk_scale_new_with_range(GTK_ORIENTATION_HORIZONTAL, 0, 10, 0.1);
     gtk_scale_set_draw_value(GTK_SCALE(strip->scale), FALSE);
@@ -409,13 +392,9 @@ static GtkWidget *make_clock(StudioTimeStrip *strip) {
     gtk_widget_add_css_class(strip->years, "numeric");
     strip->span = gtk_spin_button_new_with_range(1, 1000, 1);
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(strip->span), 10);
-    gtk_widget_set_tooltip_text(strip->span, "Years from end to end");
-    studio_name(strip->span, "Years from end to end");
+    studio_tell(strip->span, "Years from end to end");
     g_signal_connect(strip->span, "value-changed", G_CALLBACK(on_span), strip);
-    strip->back = gtk_button_new_from_icon_name("edit-clear-symbolic");
-    gtk_widget_add_css_class(strip->back, "flat");
-    gtk_widget_set_tooltip_text(strip->back, "Show the time that the document says");
-    studio_name(strip->back, "Show the time that the document says");
+    strip->back = studio_flat_button("edit-clear-symbolic", "Show the time that the document says");
     g_signal_connect(strip->back, "clicked", G_CALLBACK(on_back), strip);
     GtkWidget *line = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
     gtk_widget_set_hexpand(line, TRUE);

@@ -1,5 +1,6 @@
 /// What pointer and keys do in the viewport: they move the view, or go to who takes them.
 #include "studio/viewport_private.h"
+#include "studio/widgets.h"
 
 #include <math.h>
 
@@ -176,12 +177,10 @@ static gboolean on_key(GtkEventControllerKey *controller, guint key, guint code,
 
 void studio_viewport_add_controllers(StudioViewport *viewport) {
     GtkWidget *widget = GTK_WIDGET(viewport);
-    GtkGesture *drag = gtk_gesture_drag_new();
+    GtkGesture *drag =
+        studio_listen_to_drags(widget, G_CALLBACK(on_drag_begin), G_CALLBACK(on_drag_update),
+                               G_CALLBACK(on_drag_end), viewport);
     gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(drag), 0);
-    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_drag_begin), viewport);
-    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag_update), viewport);
-    g_signal_connect(drag, "drag-end", G_CALLBACK(on_drag_end), viewport);
-    gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(drag));
     GtkEventController *motion = gtk_event_controller_motion_new();
     g_signal_connect(motion, "motion", G_CALLBACK(on_motion), viewport);
     gtk_widget_add_controller(widget, motion);

@@ -4,6 +4,7 @@
 #include "studio/model/lamp_private.h"
 #include "studio/model/scene_edit.h"
 #include "studio/model/standing.h"
+#include "studio/widgets.h"
 #include "studio/window_private.h"
 
 #include <math.h>
@@ -72,18 +73,16 @@ static void on_save(GtkWidget *widget, GtkEditable *entry) {
 static GtkWidget *make_row(const char *name) {
     GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
     GtkWidget *go = gtk_button_new_with_label(name);
-    GtkWidget *away = gtk_button_new_from_icon_name("user-trash-symbolic");
+    GtkWidget *away = studio_flat_button("user-trash-symbolic", "Remove the view");
+    gtk_widget_add_css_class(go, "flat");
     gtk_widget_set_hexpand(go, TRUE);
     gtk_widget_set_halign(gtk_button_get_child(GTK_BUTTON(go)), GTK_ALIGN_START);
     gtk_widget_set_tooltip_text(go, "See it like this");
-    gtk_widget_set_tooltip_text(away, "Remove the view");
-    studio_name(away, "Remove the view");
     g_signal_connect(go, "clicked", G_CALLBACK(on_go), NULL);
     g_signal_connect(away, "clicked", G_CALLBACK(on_remove), NULL);
     GtkWidget *const buttons[] = {go, away};
     for (size_t i = 0; i < G_N_ELEMENTS(buttons); i++) {
         g_object_set_data_full(G_OBJECT(buttons[i]), name_key, g_strdup(name), g_free);
-        gtk_widget_add_css_class(buttons[i], "flat");
         gtk_box_append(GTK_BOX(row), buttons[i]);
     }
     return row;
@@ -95,8 +94,7 @@ static GtkWidget *make_entry(guint count) {
     char *name = g_strdup_printf("view %u", count + 1);
     gtk_editable_set_text(GTK_EDITABLE(entry), name);
     g_free(name);
-    gtk_widget_set_tooltip_text(entry, "What the view is called");
-    studio_name(entry, "What the view is called");
+    studio_tell(entry, "What the view is called");
     g_signal_connect(entry, "activate", G_CALLBACK(on_save), entry);
     g_signal_connect(button, "clicked", G_CALLBACK(on_save), entry);
     gtk_box_append(GTK_BOX(row), entry);
@@ -195,8 +193,7 @@ GtkWidget *studio_views_button_new(StudioWindow *window) {
     GtkWidget *button = gtk_menu_button_new();
     gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "camera-photo-symbolic");
     gtk_menu_button_set_create_popup_func(GTK_MENU_BUTTON(button), make_list, window, NULL);
-    gtk_widget_set_tooltip_text(button, "Views of this document");
-    studio_name(button, "Views of this document");
+    studio_tell(button, "Views of this document");
     gtk_widget_set_name(button, "views");
     return button;
 }

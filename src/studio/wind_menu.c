@@ -147,9 +147,8 @@ GtkWidget *studio_wind_button_new(StudioWindow *window) {
     GtkWidget *menu = gtk_menu_button_new();
     gtk_menu_button_set_popover(GTK_MENU_BUTTON(menu), popover);
     gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(menu), "pan-down-symbolic");
-    gtk_widget_set_tooltip_text(menu, "How the wind blows");
+    studio_tell(menu, "How the wind blows");
     gtk_widget_set_name(menu, "wind-menu");
-    studio_name(menu, "How the wind blows");
     gtk_box_append(GTK_BOX(linked), wind);
     gtk_box_append(GTK_BOX(linked), menu);
     return linked;

@@ -2,6 +2,7 @@
 #include "studio/accessible.h"
 #include "studio/model/graph.h"
 #include "studio/views_menu.h"
+#include "studio/widgets.h"
 #include "studio/wind_menu.h"
 #include "studio/window_private.h"
 
@@ -64,14 +65,6 @@ void studio_window_reveal(GtkWidget *revealer, bool is_shown) {
     gtk_widget_set_can_target(revealer, is_shown);
 }
 
-static GtkWidget *icon_button(const char *icon, const char *action, const char *tip) {
-    GtkWidget *button = gtk_button_new_from_icon_name(icon);
-    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-    gtk_widget_set_tooltip_text(button, tip);
-    studio_name(button, tip);
-    return button;
-}
-
 static GMenu *menu_of(const char *const (*items)[2], size_t count) {
     GMenu *menu = g_menu_new();
     for (size_t i = 0; i < count; i++) {
@@ -99,8 +92,7 @@ static GtkWidget *make_menu_button(void) {
     gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "open-menu-symbolic");
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
     gtk_menu_button_set_primary(GTK_MENU_BUTTON(button), TRUE);
-    gtk_widget_set_tooltip_text(button, "Main menu");
-    studio_name(button, "Main menu");
+    studio_tell(button, "Main menu");
     g_object_unref(first);
     g_object_unref(second);
     g_object_unref(menu);
@@ -112,9 +104,10 @@ GtkWidget *studio_window_make_header(StudioWindow *window) {
     window->title = ADW_WINDOW_TITLE(adw_window_title_new("Frond Studio", ""));
     adw_header_bar_set_title_widget(ADW_HEADER_BAR(header), GTK_WIDGET(window->title));
     AdwHeaderBar *bar = ADW_HEADER_BAR(header);
-    adw_header_bar_pack_start(bar, icon_button("document-open-symbolic", "win.open", "Open"));
-    window->undo = icon_button("edit-undo-symbolic", "win.undo", "Undo");
-    window->redo = icon_button("edit-redo-symbolic", "win.redo", "Redo");
+    adw_header_bar_pack_start(bar,
+                              studio_action_button("document-open-symbolic", "win.open", "Open"));
+    window->undo = studio_action_button("edit-undo-symbolic", "win.undo", "Undo");
+    window->redo = studio_action_button("edit-redo-symbolic", "win.redo", "Redo");
     adw_header_bar_pack_start(bar, window->undo);
     adw_header_bar_pack_start(bar, window->redo);
     adw_header_bar_pack_end(bar, make_menu_button());
@@ -229,8 +222,8 @@ static GtkWidget *make_modes(StudioWindow *window) {
     gtk_widget_add_css_class(tools, "viewport-tools");
     gtk_box_append(GTK_BOX(tools), box);
     gtk_box_append(GTK_BOX(tools), studio_wind_button_new(window));
-    gtk_box_append(GTK_BOX(tools), icon_button("zoom-fit-best-symbolic", "win.frame",
-                                               "Show what is selected, or all (F)"));
+    gtk_box_append(GTK_BOX(tools), studio_action_button("zoom-fit-best-symbolic", "win.frame",
+                                                        "Show what is selected, or all (F)"));
     gtk_box_append(GTK_BOX(tools), studio_views_button_new(window));
     gtk_widget_set_halign(tools, GTK_ALIGN_END);
     gtk_widget_set_valign(tools, GTK_ALIGN_START);

@@ -100,18 +100,6 @@ static void paint_looks(StudioBuilder *builder) {
     }
 }
 
-static bool is_same_wood(const FrSkin *skin) {
-    uint32_t count;
-    const FrSkinPart *parts = fr_skin_parts(skin, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        if (parts[i].is_moved || parts[i].changed_vertex < parts[i].changed_vertex_end ||
-            parts[i].changed_index < parts[i].changed_index_end) {
-            return false;
-        }
-    }
-    return true;
-}
-
 // The light of the scene, anew where it has changed.
 static void shade(StudioBuilder *builder, StudioView *view, const FrContext *context) {
     FrDigest digest = fr_shading_digest(view->scene);
@@ -124,17 +112,9 @@ static void shade(StudioBuilder *builder, StudioView *view, const FrContext *con
 
 // Takes a new view; large ones get what is drawn while they move, taken over where no wood changed.
 static void adopt_view(StudioBuilder *builder, StudioView *view, const FrContext *context) {
-    StudioView *old = builder->view;
-    bool is_alike = old != NULL && old->coarse_nodes == view->coarse_nodes;
     shade(builder, view, context);
-    for (guint i = 0; is_alike && i < MIN(old->plants->len, view->plants->len); i++) {
-        StudioPlant *from = g_ptr_array_index(old->plants, i);
-        StudioPlant *to = g_ptr_array_index(view->plants, i);
-        if (from->wood == to->wood && is_same_wood(to->wood)) {
-            to->coarse_wood = g_steal_pointer(&from->coarse_wood);
-        }
-    }
-    studio_view_free(old);
+    studio_view_take_coarse(view, builder->view);
+    studio_view_free(builder->view);
     builder->view = view;
     builder->scene = view->scene;
     if (studio_view_nodes(view) >= COARSE_FROM) {

@@ -1,6 +1,7 @@
 #include "studio/model/keys.h"
 
 #include "frond/curve.h"
+#include "studio/model/place.h"
 #include "studio/model/values.h"
 
 #include <math.h>
@@ -116,13 +117,6 @@ static double first_number(const FrContents *contents, uint32_t element, const c
     return is_number ? value : usual;
 }
 
-static uint32_t plant_of(const FrContents *contents, uint32_t element) {
-    while (element != FR_NONE && strcmp(fr_contents_at(contents, element)->name, "plant") != 0) {
-        element = fr_contents_at(contents, element)->parent;
-    }
-    return element;
-}
-
 // The component that a component grows on by the first link to it; FR_NONE.
 static uint32_t bearer_of(const FrContents *contents, uint32_t component) {
     uint32_t graph = fr_contents_at(contents, component)->parent;
@@ -154,7 +148,7 @@ StudioClock studio_clock_of(const StudioDocument *document, uint32_t element) {
         clock.scale *= scale;
         at = bearer_of(contents, at);
     }
-    uint32_t plant = plant_of(contents, element);
+    uint32_t plant = studio_place_plant(contents, element);
     if (plant != FR_NONE) {
         clock.offset += clock.scale * first_number(contents, plant, "age", 0);
     }
@@ -163,7 +157,7 @@ StudioClock studio_clock_of(const StudioDocument *document, uint32_t element) {
 
 double studio_clock_shown(const StudioDocument *document, uint32_t element) {
     const FrContents *contents = studio_document_contents(document);
-    uint32_t plant = plant_of(contents, element);
+    uint32_t plant = studio_place_plant(contents, element);
     return plant == FR_NONE ? 0 : first_number(contents, plant, "time", 0);
 }
 

@@ -1,6 +1,7 @@
 #include "studio/model/lstring.h"
 
 #include "frond/document.h"
+#include "scene/find.h"
 #include "studio/model/outline.h"
 #include "studio/model/values.h"
 
@@ -29,17 +30,6 @@ struct StudioLstring {
 };
 
 // ---- making it ---------------------------------------------------------------------------------
-
-static const FrPlantDef *find_plant(const FrDocument *document, const char *id) {
-    const GPtrArray *plants = fr_document_plants(document);
-    for (guint i = 0; i < plants->len; i++) {
-        const FrPlantDef *plant = g_ptr_array_index(plants, i);
-        if (strcmp(plant->id, id) == 0) {
-            return plant;
-        }
-    }
-    return NULL;
-}
 
 static int64_t seed_of(const FrDocument *document, const FrPlantDef *plant) {
     const GPtrArray *places = fr_document_places(document);
@@ -153,7 +143,7 @@ FrStatus studio_lstring_new(FrSource *source, const char *folder, const char *pl
     made->matches = g_array_new(FALSE, TRUE, sizeof(bool));
     FrStatus status = fr_document_parse(source, folder, context, &made->document);
     if (status == FR_OK) {
-        const FrPlantDef *definition = find_plant(made->document, plant);
+        const FrPlantDef *definition = fr_scene_find_plant(made->document, plant);
         bool is_one = definition != NULL && definition->kind == FR_PLANT_LSYSTEM;
         status = is_one ? derive(made, definition, context) : FR_ERR_USAGE;
     }

@@ -1,5 +1,7 @@
 #include "studio/model/materials.h"
 
+#include "material/texture.h"
+#include "studio/model/borrowed.h"
 #include "studio/model/commands.h"
 #include "studio/model/lamp_private.h"
 
@@ -15,14 +17,6 @@ bool studio_names_picture(const FrParam *param) {
     return param->kind == FR_PARAM_TEXT &&
            fr_params_find(fr_material_table(), param->name) == param &&
            g_str_has_prefix(param->meaning, "file of the");
-}
-
-uint32_t studio_find_material(const FrContents *contents, const char *id) {
-    uint32_t at = fr_contents_child(contents, 0, "material");
-    while (at != FR_NONE && g_strcmp0(fr_contents_at(contents, at)->id, id) != 0) {
-        at = fr_contents_sibling(contents, at);
-    }
-    return at;
 }
 
 void studio_material_read(const StudioDocument *document, uint32_t material,
@@ -130,7 +124,7 @@ bool studio_rename_material(StudioDocument *document, uint32_t material, const c
     if (from == NULL || !fr_contents_is_id(to)) {
         return false;
     }
-    if (studio_find_material(contents, to) != FR_NONE) {
+    if (studio_tag_find(contents, 0, STUDIO_TAG_MATERIAL, to) != FR_NONE) {
         return false;
     }
     GArray *splices = g_array_new(FALSE, FALSE, sizeof(FrSplice));
@@ -174,16 +168,6 @@ char *studio_file_from(const char *folder, const char *path) {
 
 // ---- swatches ----------------------------------------------------------------------------------
 
-static float decoded(float c) {
-    return c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
-}
-
-static uint8_t encoded(float c) {
-    c = fminf(fmaxf(c, 0), 1);
-    c = c <= 0.0031308f ? 12.92f * c : 1.055f * powf(c, 1 / 2.4f) - 0.055f;
-    return (uint8_t)(c * 255 + 0.5f);
-}
-
 FrImage *studio_thumbnail(const FrImage *image, uint32_t width, uint32_t height) {
     FrImage *small = fr_image_new(width, height, 4);
     for (uint32_t i = 0; i < width * height; i++) {
@@ -216,8 +200,13 @@ static float colour_at(const FrImage *image, const float tint[3], float u, float
     uint32_t x = MIN((uint32_t)(u * (float)image->width), image->width - 1);
     uint32_t y = MIN((uint32_t)(v * (float)image->height), image->height - 1);
     const uint8_t *pixel = image->pixels + ((size_t)y * image->width + x) * image->channels;
+    vec3s colour;
     for (int c = 0; c < 3; c++) {
-        out[c] *= decoded((float)pixel[image->channels < 3 ? 0 : c] / 255);
+        colour.raw[c] = (float)pixel[image->channels < 3 ? 0 : c] / 255;
+    }
+    colour = fr_colour_linear(colour);
+    for (int c = 0; c < 3; c++) {
+        out[c] *= colour.raw[c];
     }
     return image->channels == 4 ? (float)pixel[3] / 255 : 1;
 }
@@ -257,25 +246,24 @@ FrImage *studio_swatch(const FrMaterialParams *params, const FrImage *colours, u
     FrImage *image = fr_image_new(size, size, 4);
     bool has_file = params->picture != NULL && *params->picture != '\0';
     bool is_made = params->texture != FR_TEXTURE_NONE && !has_file;
-    float tint[3];
-    for (int c = 0; c < 3; c++) { // a picture that is made has the colour already
-        tint[c] = colours != NULL && is_made ? 1 : decoded(params->colour.raw[c]);
-    }
+    // A picture that is made has the colour already.
+    vec3s tint = colours != NULL && is_made ? (vec3s){{1, 1, 1}} : fr_colour_linear(params->colour);
     for (uint32_t i = 0; i < size * size; i++) {
         float sum[4] = {0};
         for (int k = 0; k < SAMPLES * SAMPLES; k++) {
             float out[4];
             float across = (float)(i % size) + ((float)(k % SAMPLES) + 0.5f) / SAMPLES;
             float down = (float)(i / size) + ((float)(k / SAMPLES) + 0.5f) / SAMPLES;
-            paint(params, colours, tint, 2 * across / (float)size - 1, 1 - 2 * down / (float)size,
-                  out);
+            paint(params, colours, tint.raw, 2 * across / (float)size - 1,
+                  1 - 2 * down / (float)size, out);
             for (int c = 0; c < 3; c++) {
                 sum[c] += out[c] * out[3];
             }
             sum[3] += out[3];
         }
         for (int c = 0; c < 3; c++) {
-            image->pixels[4 * i + (uint32_t)c] = encoded(sum[c] / fmaxf(sum[3], 1e-6f));
+            float value = fr_colour_srgb(sum[c] / fmaxf(sum[3], 1e-6f));
+            image->pixels[4 * i + (uint32_t)c] = (uint8_t)(value * 255 + 0.5f);
         }
         image->pixels[4 * i + 3] = (uint8_t)(sum[3] / (SAMPLES * SAMPLES) * 255 + 0.5f);
     }

@@ -9,8 +9,6 @@
 bool studio_names_material(const FrParam *param);
 /// True for one that names a file of a picture.
 bool studio_names_picture(const FrParam *param);
-/// The material that is called so; FR_NONE: none is.
-uint32_t studio_find_material(const FrContents *contents, const char *id);
 /// What an element of a material says. Free with fr_params_clear().
 void studio_material_read(const StudioDocument *document, uint32_t material,
                           FrMaterialParams *params);

@@ -107,33 +107,16 @@ static char *value_of(const StudioDocument *document, uint32_t element, const ch
     return row != NULL ? g_strdup(row->default_text) : value;
 }
 
-// `count` numbers with commas between them, and nothing behind.
-static bool read_numbers(const char *text, int count, double *numbers) {
-    for (int i = 0; i < count; i++) {
-        char *end;
-        text += strspn(text, " ");
-        numbers[i] = g_ascii_strtod(text, &end);
-        if (end == text) {
-            return false;
-        }
-        text = end + strspn(end, " ");
-        if (i + 1 < count && *text++ != ',') {
-            return false;
-        }
-    }
-    return *text == '\0';
-}
-
 static bool read_box(const StudioDocument *document, uint32_t element, FrLattice *lattice) {
     static const char *const degrees[] = {"degree-x", "degree-y", "degree-z"};
     char *from = value_of(document, element, "box-from");
     char *to = value_of(document, element, "box-to");
     double a[3], b[3], degree;
-    bool is_right =
-        from != NULL && to != NULL && read_numbers(from, 3, a) && read_numbers(to, 3, b);
+    bool is_right = from != NULL && to != NULL && studio_numbers_read(from, 3, a) &&
+                    studio_numbers_read(to, 3, b);
     for (int k = 0; k < 3 && is_right; k++) {
         char *text = value_of(document, element, degrees[k]);
-        is_right = text != NULL && read_numbers(text, 1, &degree) && degree >= 1 &&
+        is_right = text != NULL && studio_numbers_read(text, 1, &degree) && degree >= 1 &&
                    degree <= FR_LATTICE_MOST_DEGREE && fabs(a[k] - b[k]) > 1e-6;
         if (is_right) {
             lattice->degree[k] = (uint32_t)degree;
@@ -158,7 +141,7 @@ static bool add_move(StudioPatch *patch, char *word) {
         return false;
     }
     *colon = '\0';
-    if (!read_numbers(word, 3, index) || !read_numbers(colon + 1, 3, by)) {
+    if (!studio_numbers_read(word, 3, index) || !studio_numbers_read(colon + 1, 3, by)) {
         return false;
     }
     for (int k = 0; k < 3; k++) {

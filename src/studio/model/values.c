@@ -4,12 +4,22 @@
 #include <string.h>
 
 bool studio_value_is_number(const char *text, double *value) {
-    char *end;
-    *value = g_ascii_strtod(text, &end);
-    while (g_ascii_isspace(*end)) {
-        end++;
+    return studio_numbers_read(text, 1, value);
+}
+
+bool studio_numbers_read(const char *text, int count, double *numbers) {
+    bool is_right = true;
+    for (int i = 0; i < count && is_right; i++) {
+        char *end;
+        numbers[i] = g_ascii_strtod(text, &end);
+        is_right = end != text && isfinite(numbers[i]);
+        while (g_ascii_isspace(*end)) {
+            end++;
+        }
+        is_right = is_right && *end == (i + 1 < count ? ',' : '\0');
+        text = end + 1; // behind the comma
     }
-    return end != text && *end == '\0' && isfinite(*value);
+    return is_right;
 }
 
 char *studio_value_text(double value, double span) {

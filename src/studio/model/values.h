@@ -6,6 +6,8 @@
 
 /// Whether a text is one plain number.
 bool studio_value_is_number(const char *text, double *value);
+/// Whether a text is so many plain numbers with commas between them.
+bool studio_numbers_read(const char *text, int count, double *numbers);
 /// A number with no more digits than a handle needs for a span. Free with g_free().
 char *studio_value_text(double value, double span);
 /// "x, y, z", each as above. Free with g_free().

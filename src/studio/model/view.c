@@ -1,5 +1,7 @@
 #include "studio/model/view.h"
 
+#include "material/texture.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -126,10 +128,6 @@ FrDigest studio_look_digest(const FrMaterialParams *params) {
     return digest;
 }
 
-static float linear(float srgb) {
-    return srgb <= 0.04045f ? srgb / 12.92f : powf((srgb + 0.055f) / 1.055f, 2.4f);
-}
-
 // Until its picture is there, what is made by the program has a typical colour.
 static vec3s tint_of(const FrMaterial *material) {
     const FrMaterialParams *params = fr_material_params(material);
@@ -145,12 +143,13 @@ static vec3s tint_of(const FrMaterial *material) {
 
 static StudioLook look_of(FrMaterial *material) {
     const FrMaterialParams *params = fr_material_params(material);
-    vec3s colour = tint_of(material), over = fr_material_tint(material);
+    vec3s tint = fr_colour_linear(tint_of(material));
+    vec3s over = fr_colour_linear(fr_material_tint(material));
     return (StudioLook){
         .material = fr_material_ref(material),
         .digest = studio_look_digest(params),
-        .tint = {linear(colour.x), linear(colour.y), linear(colour.z)},
-        .picture_tint = {linear(over.x), linear(over.y), linear(over.z)},
+        .tint = {tint.x, tint.y, tint.z},
+        .picture_tint = {over.x, over.y, over.z},
         .alpha_cutoff = (float)params->alpha_cutoff,
         .translucency = (float)params->translucency,
         .roughness = (float)params->roughness,
@@ -310,6 +309,29 @@ static FrPlant thinned(const FrPlant *plant, uint32_t most, uint16_t *flags) {
     thin.axes.flags = flags;
     thin.organs.count = 0;
     return thin;
+}
+
+static bool is_same_wood(const FrSkin *skin) {
+    uint32_t count;
+    const FrSkinPart *parts = fr_skin_parts(skin, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (parts[i].is_moved || parts[i].changed_vertex < parts[i].changed_vertex_end ||
+            parts[i].changed_index < parts[i].changed_index_end) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void studio_view_take_coarse(StudioView *view, StudioView *old) {
+    bool is_alike = old != NULL && old->coarse_nodes == view->coarse_nodes;
+    for (guint i = 0; is_alike && i < MIN(old->plants->len, view->plants->len); i++) {
+        StudioPlant *from = g_ptr_array_index(old->plants, i);
+        StudioPlant *to = g_ptr_array_index(view->plants, i);
+        if (from->wood == to->wood && is_same_wood(to->wood)) {
+            to->coarse_wood = g_steal_pointer(&from->coarse_wood);
+        }
+    }
 }
 
 void studio_view_add_coarse(StudioView *view, const FrContext *context) {

@@ -67,6 +67,9 @@ StudioView *studio_view_of(const FrScene *scene, const FrSkin *const *skins,
                            const FrContext *context);
 /// How many internodes stand in it.
 uint64_t studio_view_nodes(const StudioView *view);
+/// Takes over the coarse wood of the view before (NULL: none), where the wood has not changed
+/// since.
+void studio_view_take_coarse(StudioView *view, StudioView *old);
 /// Makes the coarse wood where there is none yet.
 void studio_view_add_coarse(StudioView *view, const FrContext *context);
 void studio_view_free(StudioView *view);

@@ -39,15 +39,7 @@ static uint32_t find_wind(const StudioDocument *document, uint32_t plant, double
                            ? FR_NONE
                            : fr_contents_child(contents, plant, "nurbs");
     char *text = element == FR_NONE ? NULL : fr_contents_get(contents, element, "wind");
-    char **parts = g_strsplit(text == NULL ? "0, 0, 0" : text, ",", -1);
-    bool is_plain = g_strv_length(parts) == 3;
-    for (int i = 0; i < 3 && is_plain; i++) {
-        char *end;
-        g_strstrip(parts[i]);
-        wind[i] = g_ascii_strtod(parts[i], &end);
-        is_plain = *parts[i] != '\0' && *end == '\0' && isfinite(wind[i]);
-    }
-    g_strfreev(parts);
+    bool is_plain = studio_numbers_read(text == NULL ? "0, 0, 0" : text, 3, wind);
     g_free(text);
     return is_plain ? element : FR_NONE;
 }
