@@ -38,8 +38,7 @@ PATCH = """<frond version="1">
 
 def open_flower(run):
     run.studio.ask("size 1440 900")
-    run.studio.ask(f"open {run.file}")
-    run.studio.wait()
+    run.open(run.file)
     run.first = run.studio.state()["digest"]
 
 
@@ -246,11 +245,7 @@ def test_wind(run):
 def test_own_wind(run):
     """the wind that a plant is bent by is set by the wind's menu, each drag as a step"""
     studio = run.studio
-    file = os.path.join(run.home, "bent.frond")
-    with open(file, "w", encoding="utf-8") as out:
-        out.write(BEGINNING.replace("</pgraph>", '</pgraph><nurbs wind="0, 0.2, 0"/>'))
-    studio.ask(f"open {file}")
-    studio.wait()
+    run.open_text("bent.frond", BEGINNING.replace("</pgraph>", '</pgraph><nurbs wind="0, 0.2, 0"/>'))
     before = studio.state()
     studio.click(studio.middle("wind-menu"))
     time.sleep(0.4)
@@ -266,8 +261,7 @@ def test_own_wind(run):
     studio.undo_all()
     assert studio.state()["digest"] == before["digest"]
     studio.ask("do wind(false)")
-    studio.ask(f"open {run.file}")
-    studio.wait()
+    run.open(run.file)
 
 
 def test_curve(run):
@@ -345,11 +339,7 @@ def test_hand(run):
 def test_lsystem(run):
     """an L-system is typed and stepped"""
     studio = run.studio
-    weed = os.path.join(run.home, "weed.frond")
-    with open(weed, "w", encoding="utf-8") as file:
-        file.write(WEED)
-    studio.ask(f"open {weed}")
-    studio.wait()
+    run.open_text("weed.frond", WEED)
     first = studio.state()
     run.picture("lsystem")
     x, y, _, _ = studio.where("string")
@@ -385,17 +375,13 @@ def test_lsystem(run):
     studio.undo_all()
     studio.wait()
     assert studio.state()["digest"] == first["digest"]
-    studio.ask(f"open {run.file}")
-    studio.wait()
+    run.open(run.file)
 
 
 def test_patch(run):
     """control points of a Hyperpatch are dragged, mirrored and put back"""
     studio = run.studio
-    file = os.path.join(run.home, "patch.frond")
-    with open(file, "w", encoding="utf-8") as out:
-        out.write(PATCH)
-    studio.ask(f"open {file}")
+    run.open_text("patch.frond", PATCH)
     studio.ask("do select::patch")
     studio.wait()
     before = studio.state()

@@ -27,26 +27,49 @@ BEGINNING = """<?xml version="1.0" encoding="UTF-8"?>
 """
 
 
-class Run:
-    """One studio for all tests, as a person has one."""
+class Home:
+    """A folder that is gone in the end, with a studio in it and pictures of what that shows."""
 
     def __init__(self):
         self.home = tempfile.mkdtemp(prefix="frond-studio-")
-        self.display = driver.Display()
-        self.studio = driver.Studio(self.display, self.home)
-        self.file = os.path.join(self.home, "flower.frond")
-        with open(self.file, "w", encoding="utf-8") as file:
-            file.write(BEGINNING)
+        self.studio = None
         PICTURES.mkdir(parents=True, exist_ok=True)
 
-    def close(self):
-        self.studio.kill()
-        self.display.close()
-        shutil.rmtree(self.home)
+    def write(self, name, text):
+        """Writes a document, and returns its file."""
+        path = os.path.join(self.home, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def open(self, path):
+        self.studio.ask(f"open {path}")
+        self.studio.wait()
+
+    def open_text(self, name, text):
+        self.open(self.write(name, text))
 
     def picture(self, name):
         self.studio.wait()
         self.studio.ask(f"picture {PICTURES / name}.png")
+
+    def close(self):
+        shutil.rmtree(self.home)
+
+
+class Run(Home):
+    """One studio for all tests, as a person has one."""
+
+    def __init__(self):
+        super().__init__()
+        self.display = driver.Display()
+        self.studio = driver.Studio(self.display, self.home)
+        self.file = self.write("flower.frond", BEGINNING)
+
+    def close(self):
+        self.studio.kill()
+        self.display.close()
+        super().close()
 
 
 def is_left(studio, before):

@@ -56,12 +56,8 @@ ROWS = """<frond version="1">
 
 def open_grove(run):
     studio = run.studio
-    grove = os.path.join(run.home, "grove.frond")
-    with open(grove, "w", encoding="utf-8") as file:
-        file.write(GROVE)
     studio.ask("size 1440 900")
-    studio.ask(f"open {grove}")
-    studio.wait()
+    run.open_text("grove.frond", GROVE)
     studio.ask("turn 0 20 7")
     studio.wait()
 
@@ -165,11 +161,7 @@ def test_arrange(run):
 def test_rows(run):
     """a plant of a row is taken out and moved, another left out, others brushed out of an area"""
     studio = run.studio
-    rows = os.path.join(run.home, "rows.frond")
-    with open(rows, "w", encoding="utf-8") as file:
-        file.write(ROWS)
-    studio.ask(f"open {rows}")
-    studio.wait()
+    run.open_text("rows.frond", ROWS)
     studio.ask("turn 0 20 1.5")
     studio.ask("do scene-tool::move")
     studio.wait()
@@ -225,10 +217,7 @@ def test_rows(run):
 def test_light(run):
     """a lamp is dragged and another hung up, rays, cells and the field are shown, all is undone"""
     studio = run.studio
-    file = os.path.join(run.home, "room.frond")
-    with open(file, "w", encoding="utf-8") as out:
-        out.write(ROOM)
-    studio.ask(f"open {file}")
+    run.open_text("room.frond", ROOM)
     studio.ask("do side('light')")
     studio.wait()
     before = studio.state()["digest"]
@@ -260,11 +249,8 @@ def test_light(run):
 def test_lamps(run):
     """lamps of the document light the picture from where they hang"""
     studio = run.studio
-    file = os.path.join(run.home, "bulbs.frond")
-    with open(file, "w", encoding="utf-8") as out:
-        out.write(BULBS)
     studio.ask("size 900 600")
-    studio.ask(f"open {file}")
+    run.open_text("bulbs.frond", BULBS)
     run.picture("lamps")
     left, right = (studio.colour(studio.point(x, 0, 0.3)) for x in (-0.03, 0.03))
     assert left[0] > left[2] + 20, f"the left is not red: {left}"

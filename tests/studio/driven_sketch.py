@@ -15,8 +15,7 @@ def test_sketch(run):
     """branches are chosen and drawn in depth, and what comes of it stands in the scene"""
     studio = run.studio
     shutil.copy(SOURCE / "examples" / "strokes.frond", run.home)
-    studio.ask(f"open {os.path.join(run.home, 'strokes.frond')}")
-    studio.wait()
+    run.open(os.path.join(run.home, 'strokes.frond'))
     first = studio.state()
     studio.ask("do sketch")
     studio.wait()
@@ -62,16 +61,14 @@ def test_sketch(run):
     studio.undo_all()
     studio.wait()
     assert studio.state()["digest"] == first["digest"]
-    studio.ask(f"open {run.file}")
-    studio.wait()
+    run.open(run.file)
 
 
 def test_device(run):
     """a device draws by lines of text, and keys choose and draw as the pointer does, in little room"""
     studio = run.studio
     studio.ask("size 1024 768")
-    studio.ask(f"open {os.path.join(run.home, 'strokes.frond')}")
-    studio.wait()
+    run.open(os.path.join(run.home, 'strokes.frond'))
     studio.ask("do sketch")
     studio.wait()
     left, _, width, height = studio.where("sketch-skeleton")
@@ -101,5 +98,4 @@ def test_device(run):
     studio.ask("do sketch")
     studio.ask("size 1440 900")
     studio.undo_all()
-    studio.ask(f"open {run.file}")
-    studio.wait()
+    run.open(run.file)

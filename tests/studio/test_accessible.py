@@ -1,15 +1,9 @@
 """The studio for those who see little or use no pointer: what is told to screen readers, and keys."""
 
-import os
-import pathlib
 import re
-import shutil
-import tempfile
 
 import studio_driver as driver
-
-SOURCE = pathlib.Path(os.environ.get("FROND_SOURCE", "."))
-PICTURES = pathlib.Path(os.environ.get("FROND_PICTURES", "build/studio-pictures"))
+from driven_run import Home, SOURCE
 
 PLANT = """<frond version="1">
   <curve id="thick" points="0,1 0.5,0.6 1,0.2"/>
@@ -25,36 +19,25 @@ PLANT = """<frond version="1">
 """
 
 
-class Run:
+class Run(Home):
     def __init__(self):
-        self.home = tempfile.mkdtemp(prefix="frond-studio-")
+        super().__init__()
         self.display = driver.Display()
         self.bus = driver.Bus(self.display, self.home)
         self.studio = driver.Studio(self.display, self.home, bus=self.bus)
         self.studio.ask("size 1440 900")
-        self.file = os.path.join(self.home, "plant.frond")
-        with open(self.file, "w", encoding="utf-8") as file:
-            file.write(PLANT)
-        PICTURES.mkdir(parents=True, exist_ok=True)
+        self.file = self.write("plant.frond", PLANT)
 
     def close(self):
         self.studio.kill()
         self.bus.close()
         self.display.close()
-        shutil.rmtree(self.home)
-
-    def open(self, file):
-        self.studio.ask(f"open {file}")
-        self.studio.wait()
+        super().close()
 
     def keys(self, *keys):
         for key in keys:
             self.studio.pointer("key", key)
         self.studio.wait()
-
-    def picture(self, name):
-        self.studio.wait()
-        self.studio.ask(f"picture {PICTURES / name}.png")
 
 
 def nodes(tree, path=()):

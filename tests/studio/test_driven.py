@@ -28,13 +28,10 @@ def test_examples(run):
 
 def test_broken(run):
     """a document that cannot be read shows no plant of the one before"""
-    broken = os.path.join(run.home, "broken.frond")
-    with open(broken, "w", encoding="utf-8") as file:
-        file.write('<frond version="1"><plant id="p"')
     run.studio.ask(f"open {SOURCE / 'examples' / 'sunflower.frond'}")
     run.studio.wait()
     assert run.studio.state()["triangles"] > 0
-    run.studio.ask(f"open {broken}")
+    run.open_text("broken.frond", '<frond version="1"><plant id="p"')
     run.picture("broken")
     state = run.studio.state()
     assert state["problems"] == 1 and state["triangles"] == 0, state

@@ -1,14 +1,10 @@
 """The studio on screens of other kinds: with twice as many pixels across, small, with large letters."""
 
 import os
-import pathlib
 import shutil
-import tempfile
 
 import studio_driver as driver
-
-SOURCE = pathlib.Path(os.environ.get("FROND_SOURCE", "."))
-PICTURES = pathlib.Path(os.environ.get("FROND_PICTURES", "build/studio-pictures"))
+from driven_run import Home, SOURCE
 
 POLES = """<frond version="1">
   <curve id="thick" points="0,1 0.5,0.6 1,0.2"/>
@@ -22,14 +18,11 @@ POLES = """<frond version="1">
 """
 
 
-class Run:
+class Run(Home):
     def __init__(self):
-        self.home = tempfile.mkdtemp(prefix="frond-studio-")
-        self.file = os.path.join(self.home, "poles.frond")
-        self.display = self.studio = None
-        with open(self.file, "w", encoding="utf-8") as file:
-            file.write(POLES)
-        PICTURES.mkdir(parents=True, exist_ok=True)
+        super().__init__()
+        self.file = self.write("poles.frond", POLES)
+        self.display = None
 
     def on(self, width, height, dense=1):
         """A display of that size, with a studio that fills it."""
@@ -39,10 +32,9 @@ class Run:
         self.studio.ask(f"size {width} {height}")
         return self.studio
 
-    def open(self, file, select):
-        self.studio.ask(f"open {file}")
-        self.studio.wait()
-        self.studio.ask("do select::" + select)
+    def open_at(self, file, selected):
+        self.open(file)
+        self.studio.ask("do select::" + selected)
         self.studio.wait()
 
     def close_display(self):
@@ -52,17 +44,13 @@ class Run:
 
     def close(self):
         self.close_display()
-        shutil.rmtree(self.home)
-
-    def picture(self, name):
-        self.studio.wait()
-        self.studio.ask(f"picture {PICTURES / name}.png")
+        super().close()
 
 
 def test_pick(run):
     """with two pixels for one, what is clicked is what is seen"""
     studio = run.on(1440, 900, dense=2)
-    run.open(run.file, "root")
+    run.open_at(run.file, "root")
     studio.click(studio.point(1, 0, 0.5))
     studio.wait()
     assert studio.state()["selected"].endswith("horn:pole"), studio.state()
@@ -102,7 +90,7 @@ def test_stroke(run):
     """and a stroke is drawn under the pointer"""
     studio = run.studio
     shutil.copy(SOURCE / "examples" / "strokes.frond", run.home)
-    run.open(os.path.join(run.home, "strokes.frond"), "stem")
+    run.open_at(os.path.join(run.home, "strokes.frond"), "stem")
     studio.ask("do sketch")
     studio.wait()
     studio.click(studio.middle("sketch-skeleton", 0.15, 0.06))
@@ -123,13 +111,13 @@ def test_small(run):
     """a window of 1280 by 720 shows every mode whole"""
     studio = run.on(1280, 720)
     fits(run, 1280, 720)
-    run.open(SOURCE / "examples" / "sunflower.frond", "petal")
+    run.open_at(SOURCE / "examples" / "sunflower.frond", "petal")
     fits(run, 1280, 720)
     run.picture("small")
     studio.ask("do scene-tool('paint')")
     run.picture("small-paint")
     fits(run, 1280, 720)
-    run.open(os.path.join(run.home, "strokes.frond"), "stem")
+    run.open_at(os.path.join(run.home, "strokes.frond"), "stem")
     studio.ask("do sketch")
     run.picture("small-sketch")
     fits(run, 1280, 720)
@@ -138,7 +126,7 @@ def test_small(run):
 def test_letters(run):
     """letters half as large again have room, in the graph, too"""
     studio = run.on(1600, 1000)
-    run.open(SOURCE / "examples" / "sunflower.frond", "petal")
+    run.open_at(SOURCE / "examples" / "sunflower.frond", "petal")
     before = studio.where("box:root")
     studio.ask("letters 1.5")
     studio.wait()
