@@ -1,4 +1,5 @@
 /// Collections: many instances of a varied plant side by side.
+#include "scene/grow.h"
 #include "scene/rational.h"
 #include "scene/varied.h"
 
@@ -7,12 +8,6 @@
 // Free ground between two plants, of the width of the widest.
 #define GAP 0.15
 enum { LONGEST_ROW = 8 };
-
-static void clear_plant(void *data) {
-    FrScenePlant *plant = data;
-    fr_plant_free(plant->plant);
-    g_free(plant->by_component);
-}
 
 static FrScene *empty_scene(const char *name, const FrSceneParams *params, uint64_t seed,
                             GDestroyNotify clear) {
@@ -61,7 +56,7 @@ static FrStatus make_all(const FrDocument *document, const FrVaried *varied, con
     FrPlant **instances = g_new0(FrPlant *, (gsize)count + 1);
     FrStatus status = fr_vary_collection(varied->plan, seed, count, context, instances);
     if (status == FR_OK) {
-        *scene = empty_scene(id, fr_document_scene(document), seed, clear_plant);
+        *scene = empty_scene(id, fr_document_scene(document), seed, fr_scene_plant_clear);
         place_all(*scene, varied, instances, count);
     }
     g_free(instances);

@@ -5,6 +5,8 @@
 #include "frond/light_field.h"
 #include "frond/scene.h"
 
+/// Frees what a FrScenePlant holds.
+void fr_scene_plant_clear(void *plant);
 /// Internodes and organs by the component that made them (for internodes: that their axis begins
 /// with).
 uint64_t *fr_scene_count_made(const FrPlant *plant);

@@ -1,6 +1,7 @@
 /// Plants taken out of a scene by the names of what has placed them.
 #include "frond/only.h"
 
+#include "scene/grow.h"
 #include "scene/placing.h"
 
 #include <string.h>
@@ -291,4 +292,41 @@ bool fr_only_apply(const FrOnly *only, FrScene *scene, bool in_place) {
         }
     }
     return true;
+}
+
+// ---- copies -----------------------------------------------------------------------------------
+
+/// The columns that a plant of a scene has for its components, on their own.
+static void own_columns(FrScenePlant *plant) {
+    guint components = plant->plant->components->len;
+    plant->by_component =
+        g_memdup2(plant->by_component, components * sizeof *plant->by_component);
+    plant->seconds = g_memdup2(plant->seconds, components * sizeof *plant->seconds);
+}
+
+FrScene *fr_only_copy(const FrOnly *only, const FrScene *scene, bool in_place) {
+    FrScene *copy = g_new(FrScene, 1);
+    *copy = *scene;
+    copy->plants = g_array_new(FALSE, FALSE, sizeof(FrScenePlant));
+    copy->stands = g_array_new(FALSE, FALSE, sizeof(FrStand));
+    copy->views = g_ptr_array_new();
+    copy->name = g_strdup(scene->name);
+    copy->params = NULL;
+    copy->surroundings = NULL;
+    copy->steps = NULL;
+    g_array_append_vals(copy->plants, scene->plants->data, scene->plants->len);
+    g_array_append_vals(copy->stands, scene->stands->data, scene->stands->len);
+    if (only != NULL && !fr_only_apply(only, copy, in_place)) {
+        g_array_set_size(copy->plants, 0); // they are the scene's
+        g_clear_pointer(&copy, fr_scene_free);
+        return NULL;
+    }
+    for (guint i = 0; i < copy->plants->len; i++) {
+        FrScenePlant *plant = &g_array_index(copy->plants, FrScenePlant, i);
+        own_columns(plant);
+        plant->nurbs_span = (FrSpan){0}; // places of the document's text
+        plant->plant = fr_plant_copy(plant->plant);
+    }
+    g_array_set_clear_func(copy->plants, fr_scene_plant_clear);
+    return copy;
 }

@@ -1,4 +1,5 @@
 /// A document built: each plant once for every seed it stands with.
+#include "scene/grow.h"
 #include "scene/obstacles.h"
 #include "scene/rational.h"
 #include "scene/rebuild.h"
@@ -27,7 +28,7 @@ typedef struct Build {
     FrEcosystem *ecosystem;
 } Build;
 
-static void clear_plant(void *data) {
+void fr_scene_plant_clear(void *data) {
     FrScenePlant *plant = data;
     fr_plant_free(plant->plant);
     g_free(plant->by_component);
@@ -297,7 +298,7 @@ static FrScene *new_scene(const FrDocument *document, int64_t seed) {
     FrScene *scene = g_new0(FrScene, 1);
     scene->name = scene_name(fr_document_name(document));
     scene->plants = g_array_new(FALSE, FALSE, sizeof(FrScenePlant));
-    g_array_set_clear_func(scene->plants, clear_plant);
+    g_array_set_clear_func(scene->plants, fr_scene_plant_clear);
     scene->stands = g_array_new(FALSE, FALSE, sizeof(FrStand));
     scene->steps = g_array_new(FALSE, FALSE, sizeof(FrSceneStep));
     scene->views = g_ptr_array_new();

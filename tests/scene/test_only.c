@@ -92,6 +92,30 @@ static void test_one(void) {
     forget(&built);
 }
 
+static void test_copy(void) {
+    Built built = build(WOOD, -1);
+    FrStand third = *stand_at(&built, 4);
+    FrOnly *only = fr_only_one(third.origin, third.number), *none = fr_only_one(third.origin, 17);
+    FrDigest before = fr_scene_digest(built.scene);
+    FrDigest elm = fr_plant_digest(plant_at(&built, third.plant)->plant);
+    uint32_t stands = fr_scene_stand_count(built.scene);
+    FrScene *whole = fr_only_copy(NULL, built.scene, true);
+    FrScene *lone = fr_only_copy(only, built.scene, false);
+    g_assert_null(fr_only_copy(none, built.scene, false));
+    g_assert_cmpuint(fr_scene_digest(built.scene), ==, before);
+    forget(&built); // they need neither the scene nor its document
+    g_assert_cmpuint(fr_scene_digest(whole), ==, before);
+    g_assert_cmpuint(fr_scene_stand_count(whole), ==, stands);
+    g_assert_cmpuint(whole->obstacles, ==, 1);
+    g_assert_cmpuint(lone->plants->len, ==, 1);
+    g_assert_cmpuint(fr_plant_digest(g_array_index(lone->plants, FrScenePlant, 0).plant), ==, elm);
+    g_assert_cmpfloat(g_array_index(lone->stands, FrStand, 0).at[0], ==, 0);
+    fr_scene_free(whole);
+    fr_scene_free(lone);
+    fr_only_free(only);
+    fr_only_free(none);
+}
+
 static void test_unknown(void) {
     Built built = build(WOOD, -1);
     FrContext context = fr_context_default();
@@ -111,6 +135,7 @@ int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/scene/only/names mean plants, places, rows and one plant of a row",
                     test_names);
+    g_test_add_func("/scene/only/a copy is the same and needs nothing of the scene", test_copy);
     g_test_add_func("/scene/only/a plant keeps its shape, turn and size, here or at the origin",
                     test_shape);
     g_test_add_func("/scene/only/several plants keep their distances", test_distances);
