@@ -20,8 +20,8 @@ FR_API void fr_only_free(FrOnly *only);
 /// moved together, so that the first stands at the origin, unless they stay `in_place`. False, and
 /// nothing has changed, if none of them is in the scene.
 FR_API bool fr_only_apply(const FrOnly *only, FrScene *scene, bool in_place);
-/// A copy of what stands, or after fr_only_apply() of what that leaves (`only` NULL: everything, and
-/// obstacles); NULL if none of them is in the scene. It needs neither the scene nor the document:
-/// what scenes borrow of that is not in it (`params`, `surroundings`: NULL, no views), so models can
-/// be written of it, and it cannot be lit.
+/// A copy of what stands, or after fr_only_apply() of what that leaves (`only` NULL: everything,
+/// and obstacles); NULL if none of them is in the scene. It needs neither the scene nor the
+/// document: what scenes borrow of that is not in it (`params`, `surroundings`: NULL, no views), so
+/// models can be written of it, and it cannot be lit.
 FR_API FrScene *fr_only_copy(const FrOnly *only, const FrScene *scene, bool in_place);

@@ -299,8 +299,7 @@ bool fr_only_apply(const FrOnly *only, FrScene *scene, bool in_place) {
 /// The columns that a plant of a scene has for its components, on their own.
 static void own_columns(FrScenePlant *plant) {
     guint components = plant->plant->components->len;
-    plant->by_component =
-        g_memdup2(plant->by_component, components * sizeof *plant->by_component);
+    plant->by_component = g_memdup2(plant->by_component, components * sizeof *plant->by_component);
     plant->seconds = g_memdup2(plant->seconds, components * sizeof *plant->seconds);
 }
 

@@ -8,9 +8,10 @@ typedef struct Job {
     StudioWindow *window; // a reference
     GtkWidget *dialog;    // weak
     GtkWidget *bar, *write, *hosts, *lod, *place;
-    FrSource *source;
-    char *folder, *path, *name; // name: of the file that is proposed, without its ending
+    char *path, *name; // name: of the file that is proposed, without its ending
     StudioExport how;
+    StudioWhich which;
+    StudioCopy *copy; // of what stands
     FrProgress *progress;
     FrDiags *diags;
     StudioExported exported;
@@ -43,10 +44,9 @@ static void job_free(Job *job) {
         g_object_remove_weak_pointer(G_OBJECT(job->dialog), (gpointer *)&job->dialog);
     }
     g_clear_handle_id(&job->timer, g_source_remove);
-    fr_source_unref(job->source);
+    studio_copy_free(job->copy);
     fr_progress_free(job->progress);
     fr_diags_free(job->diags);
-    g_free(job->folder);
     g_free(job->path);
     g_free(job->name);
     g_object_unref(job->window);
@@ -61,7 +61,7 @@ static void work(GTask *task, gpointer source, gpointer data, GCancellable *canc
     context.pool = fr_pool_new(0);
     context.progress = job->progress;
     context.diags = job->diags;
-    job->exported = studio_export(job->source, job->folder, job->path, &job->how, &context);
+    job->exported = studio_export(job->copy, job->path, &job->how, &context);
     fr_pool_free(context.pool);
     g_task_return_boolean(task, TRUE);
 }
@@ -73,7 +73,8 @@ static void on_done(GObject *source, GAsyncResult *result, gpointer data) {
     job->window->exports--;
     if (job->exported.status == FR_OK) {
         char *size = g_format_size(job->exported.stats.bytes);
-        studio_window_say(job->window, "Wrote %s, %s", job->path, size);
+        studio_window_say(job->window, "Wrote %s, %s%s", job->path, size,
+                          job->exported.is_behind ? ": the last plants that could be made" : "");
         g_free(size);
     } else if (job->exported.status == FR_CANCELLED) {
         studio_window_say(job->window, "Nothing was written");
@@ -90,9 +91,8 @@ static void on_done(GObject *source, GAsyncResult *result, gpointer data) {
 }
 
 static void start(Job *job) {
-    StudioDocument *document = job->window->document;
-    job->source = fr_source_ref(studio_document_source(document));
-    job->folder = g_strdup(studio_document_folder(document));
+    studio_window_request(job->window); // drawing branches does not
+    job->copy = studio_builder_copy(job->window->builder, &job->which);
     job->window->exports++;
     job->timer = g_timeout_add(100, on_timer, job);
     GTask *task = g_task_new(NULL, NULL, on_done, job);
@@ -108,7 +108,7 @@ static void begin(Job *job, const char *path) {
                     : g_strconcat(path, profile->extension, NULL);
     job->how.leaves = profile->leaves;
     job->how.lod = (int)gtk_spin_button_get_value(GTK_SPIN_BUTTON(job->lod));
-    job->how.in_place = job->place != NULL && gtk_switch_get_active(GTK_SWITCH(job->place));
+    job->which.in_place = job->place != NULL && gtk_switch_get_active(GTK_SWITCH(job->place));
     gtk_widget_set_sensitive(job->write, FALSE);
     gtk_widget_set_visible(job->bar, TRUE);
     start(job);
@@ -214,11 +214,9 @@ static Job *job_new(StudioWindow *window, const StudioOne *one) {
     Job *job = g_new0(Job, 1);
     job->window = g_object_ref(window);
     job->name = name_of(window, one);
-    job->how = (StudioExport){.time = window->moment.time,
-                              .step = window->moment.step,
-                              .is_one = one != NULL,
-                              .origin = one == NULL ? 0 : one->origin,
-                              .number = one == NULL ? 0 : one->number};
+    job->which = (StudioWhich){.is_one = one != NULL,
+                               .origin = one == NULL ? 0 : one->origin,
+                               .number = one == NULL ? 0 : one->number};
     job->progress = fr_progress_new(report, job);
     job->diags = fr_diags_new();
     return job;

@@ -272,6 +272,40 @@ def glb_nodes(path):
             for node in scene["nodes"]]
 
 
+def test_export_changed(run):
+    """a model has what grew before and after a change between two steps, as it is seen"""
+    wall = '<obstacle id="wall" at="{}, 0, 0" size="0.1, 2, 3"/></scene>'
+    studio = run.studio
+    studio.ask("size 1440 900")
+    run.open_text("walled.frond", GROVE.replace("</scene>", wall.format(5)))
+
+    def grow(steps):
+        for _ in range(steps):
+            studio.click(studio.middle("A step"))
+            studio.wait()
+
+    def export(name):
+        model = os.path.join(run.home, name)
+        studio.ask(f"do export-to('{model}')")
+        studio.wait()
+        assert studio.ask("said").startswith("Wrote"), studio.ask("said")
+        return glb_nodes(model)
+
+    studio.ask("turn 0 20 4")
+    studio.wait()
+    grow(4)
+    studio.ask("do set::wall.at=0.15, 0, 0")
+    grow(3)
+    run.picture("export-changed")
+    assert studio.state()["problems"] == 0, studio.state()
+    changed = export("changed.glb")
+    assert export("again.glb") == changed
+    # The same document grown from the beginning is another plant.
+    run.open_text("anew.frond", studio.text(run.home).replace('steps="0"', 'steps="7"'))
+    run.picture("export-anew")
+    assert export("anew.glb") != changed, changed
+
+
 def test_export_one(run):
     """one plant of a grown scene is a model of its own, at the step that is seen"""
     open_grove(run)

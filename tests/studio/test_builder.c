@@ -1,45 +1,8 @@
 /// Builds off the main thread: the newest is shown, the last good one stays, all can be stopped.
-#include "studio.h"
+#include "building.h"
 #include "studio/model/place.h"
 
 #include <math.h>
-
-static void wake(void *user) {
-    g_atomic_int_inc((gint *)user);
-}
-
-typedef struct Fixture {
-    gint wakes;
-    StudioBuilder *builder;
-} Fixture;
-
-static void set_up(Fixture *fixture, gconstpointer data) {
-    (void)data;
-    fixture->wakes = 0;
-    fixture->builder = studio_builder_new(wake, &fixture->wakes);
-}
-
-static void tear_down(Fixture *fixture, gconstpointer data) {
-    (void)data;
-    studio_builder_free(fixture->builder);
-}
-
-static void request(Fixture *fixture, const StudioDocument *document, double time) {
-    studio_builder_request(fixture->builder, studio_document_source(document),
-                           studio_document_folder(document), studio_document_revision(document),
-                           (StudioMoment){time, -1});
-}
-
-static const StudioBuilt *await(Fixture *fixture) {
-    for (int i = 0; i < 60000; i++) {
-        const StudioBuilt *built = studio_builder_collect(fixture->builder);
-        if (built != NULL) {
-            return built;
-        }
-        g_usleep(1000);
-    }
-    g_assert_not_reached();
-}
 
 static StudioCount counted(const StudioBuilt *built, const char *component) {
     for (guint i = 0; i < built->counts->len; i++) {
@@ -310,8 +273,7 @@ static void test_time(Fixture *fixture, gconstpointer data) {
 
 // The number of internodes at a step of three plants that grow bud by bud.
 static uint64_t nodes_at(Fixture *fixture, const StudioDocument *document, int64_t step) {
-    studio_builder_request(fixture->builder, studio_document_source(document), ".",
-                           studio_document_revision(document), (StudioMoment){NAN, step});
+    request_step(fixture, document, step);
     const StudioBuilt *built = await(fixture);
     g_assert_cmpint(built->status, ==, FR_OK);
     g_assert_true(built->is_growing);
@@ -397,8 +359,6 @@ static void test_lamps(Fixture *fixture, gconstpointer data) {
     studio_builder_release(fixture->builder);
     studio_document_free(document);
 }
-
-#define ADD(name, function) g_test_add(name, Fixture, NULL, set_up, function, tear_down)
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);

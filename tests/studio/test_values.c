@@ -181,38 +181,6 @@ static void test_places(void) {
     studio_document_free(document);
 }
 
-static void test_export(void) {
-    StudioDocument *document = open_example("examples/figure2.frond");
-    char *folder = g_dir_make_tmp("studio-XXXXXX", NULL);
-    size_t count;
-    const StudioProfile *profiles = studio_profiles(&count);
-    for (size_t i = 0; i < count; i++) {
-        char *name = g_strconcat("model", profiles[i].extension, NULL);
-        char *path = g_build_filename(folder, name, NULL);
-        FrContext context = fr_context_default();
-        const StudioExport how = {
-            .leaves = profiles[i].leaves, .lod = profiles[i].lod, .time = NAN, .step = -1};
-        StudioExported exported =
-            studio_export(studio_document_source(document), studio_document_folder(document), path,
-                          &how, &context);
-        g_assert_cmpint(exported.status, ==, FR_OK);
-        g_assert_cmpuint(exported.stats.bytes, >, 100);
-        g_free(path);
-        g_free(name);
-    }
-    GDir *written = g_dir_open(folder, 0, NULL);
-    const char *name;
-    while ((name = g_dir_read_name(written)) != NULL) {
-        char *file = g_build_filename(folder, name, NULL);
-        g_unlink(file);
-        g_free(file);
-    }
-    g_dir_close(written);
-    g_rmdir(folder);
-    g_free(folder);
-    studio_document_free(document);
-}
-
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/studio/values/numbers have the digits a handle needs", test_numbers);
@@ -222,6 +190,5 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/values/who goes away from plants stays above the floor", test_floor);
     g_test_add_func("/studio/values/settings are remembered", test_settings);
     g_test_add_func("/studio/values/places find their elements again", test_places);
-    g_test_add_func("/studio/values/every profile writes a model", test_export);
     return g_test_run();
 }

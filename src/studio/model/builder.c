@@ -1,14 +1,5 @@
-#include "studio/model/builder.h"
-
-#include "studio/model/ahead.h"
+#include "studio/model/builder_private.h"
 #include "studio/model/clocks.h"
-#include "studio/model/counts.h"
-#include "studio/model/grower.h"
-#include "studio/model/painter.h"
-#include "studio/model/picked.h"
-
-#include <math.h>
-#include <string.h>
 
 enum { COARSE_FROM = 20000 }; // internodes from which on the coarse wood is worth making
 
@@ -16,52 +7,7 @@ enum { COARSE_FROM = 20000 }; // internodes from which on the coarse wood is wor
 // finished and shown, so that a long drag shows something.
 static const double patience = 0.4;
 
-typedef struct Request {
-    FrSource *source;
-    char *folder;
-    uint64_t revision;
-    StudioMoment moment;
-    uint64_t round; // as the builder's when it was asked
-} Request;
-
-struct StudioBuilder {
-    StudioWake wake;
-    void *user;
-    GThread *thread;
-    StudioPainter *painter;
-    GMutex lock;
-    GCond changed;
-    // Under the lock:
-    Request *waiting;     // NULL: none
-    FrProgress *progress; // of what runs; NULL: nothing runs
-    gint64 began;
-    StudioBuilt *built;   // to be collected; NULL: none
-    bool is_held;         // collected and not released
-    bool is_over;         // the thread shall end
-    bool is_look_due;     // what stands shall be looked at
-    bool is_looking;      // that is what runs
-    bool is_changing;     // a build runs and has not been handed over: nobody may read the scene
-    uint64_t round;       // how many documents have gone
-    uint64_t collected;   // greatest revision collected so far
-    gint fraction;        // atomic, in thousandths
-    StudioGround *ground; // of the last build; NULL: level
-    GArray *stands;       // StudioStand, of the last build
-    GArray *footings;     // StudioFooting, of the last build
-    // Of the thread alone:
-    StudioWatch watch; // NULL: nobody looks
-    void *watcher;
-    bool is_growing; // what stands grows bud by bud
-    FrRebuild *rebuild;
-    StudioAhead *ahead;
-    StudioGrower *grower;
-    FrPool *pool;
-    StudioView *view;
-    FrShading shading;    // of the view …
-    FrDigest shaded;      // … and of what that depends on
-    const FrScene *scene; // what is shown and can be picked from while nothing runs; NULL
-};
-
-static void request_free(Request *request) {
+static void request_free(StudioRequest *request) {
     if (request != NULL) {
         fr_source_unref(request->source);
         g_free(request->folder);
@@ -123,7 +69,7 @@ static void adopt_view(StudioBuilder *builder, StudioView *view, const FrContext
 }
 
 // The view of what grows step by step. The document is taken over or freed.
-static FrStatus grow(StudioBuilder *builder, const Request *request, FrDocument *document,
+static FrStatus grow(StudioBuilder *builder, const StudioRequest *request, FrDocument *document,
                      const FrContext *context, StudioBuilt *built) {
     size_t size;
     char *text = fr_document_text(document, &size);
@@ -185,8 +131,8 @@ static void hand_ground(StudioBuilder *builder, StudioGround *ground) {
     g_mutex_unlock(&builder->lock);
 }
 
-static FrStatus build(StudioBuilder *builder, const Request *request, const FrContext *context,
-                      StudioBuilt *built) {
+static FrStatus build(StudioBuilder *builder, const StudioRequest *request,
+                      const FrContext *context, StudioBuilt *built) {
     gint64 began = g_get_monotonic_time();
     FrSource *source = studio_source_at_time(request->source, request->moment.time, context);
     FrDocument *document;
@@ -214,18 +160,24 @@ static FrStatus build(StudioBuilder *builder, const Request *request, const FrCo
 }
 
 // Hands an outcome over and waits until it has been looked at: it borrows from the rebuild.
-static void deliver(StudioBuilder *builder, StudioBuilt *built) {
+static void deliver(StudioBuilder *builder, const StudioRequest *request, StudioBuilt *built) {
     g_mutex_lock(&builder->lock);
+    if (built->view != NULL) {
+        builder->stood = request->number;
+        builder->stood_round = request->round;
+    }
     builder->built = built;
     builder->is_changing = false;
     builder->wake(builder->user);
     while (builder->built != NULL && !builder->is_over) {
-        g_cond_wait(&builder->changed, &builder->lock);
+        if (!studio_builder_make_copy(builder)) {
+            g_cond_wait(&builder->changed, &builder->lock);
+        }
     }
     g_mutex_unlock(&builder->lock);
 }
 
-static void serve(StudioBuilder *builder, Request *request, FrProgress *progress) {
+static void serve(StudioBuilder *builder, StudioRequest *request, FrProgress *progress) {
     if (builder->watch != NULL) {
         builder->watch(builder->watcher, NULL, NULL);
     }
@@ -247,7 +199,7 @@ static void serve(StudioBuilder *builder, Request *request, FrProgress *progress
     if (built->view != NULL) {
         builder->is_growing = built->is_growing;
     }
-    deliver(builder, built);
+    deliver(builder, request, built);
 }
 
 static void look(StudioBuilder *builder, FrProgress *progress) {
@@ -266,11 +218,14 @@ static gpointer run(gpointer data) {
     StudioBuilder *builder = data;
     g_mutex_lock(&builder->lock);
     while (!builder->is_over) {
+        if (studio_builder_make_copy(builder)) {
+            continue;
+        }
         if (builder->waiting == NULL && !builder->is_look_due) {
             g_cond_wait(&builder->changed, &builder->lock);
             continue;
         }
-        Request *request = g_steal_pointer(&builder->waiting);
+        StudioRequest *request = g_steal_pointer(&builder->waiting);
         builder->is_looking = request == NULL;
         builder->is_changing = request != NULL;
         builder->is_look_due = request != NULL; // what it makes is looked at next
@@ -323,6 +278,7 @@ void studio_builder_free(StudioBuilder *builder) {
     g_cond_broadcast(&builder->changed);
     g_mutex_unlock(&builder->lock);
     g_thread_join(builder->thread);
+    studio_builder_drop_copies(builder);
     if (builder->watch != NULL) {
         builder->watch(builder->watcher, NULL, NULL);
     }
@@ -344,10 +300,11 @@ void studio_builder_free(StudioBuilder *builder) {
 
 void studio_builder_request(StudioBuilder *builder, FrSource *source, const char *folder,
                             uint64_t revision, StudioMoment moment) {
-    Request *request = g_new(Request, 1);
-    *request = (Request){fr_source_ref(source), g_strdup(folder), revision, moment, 0};
+    StudioRequest *request = g_new(StudioRequest, 1);
+    *request = (StudioRequest){fr_source_ref(source), g_strdup(folder), revision, moment, 0, 0};
     g_mutex_lock(&builder->lock);
     request->round = builder->round;
+    request->number = ++builder->asked;
     request_free(builder->waiting);
     builder->waiting = request;
     if (builder->progress != NULL &&
@@ -362,6 +319,7 @@ void studio_builder_forget(StudioBuilder *builder) {
     g_mutex_lock(&builder->lock);
     builder->round++;
     g_clear_pointer(&builder->waiting, request_free);
+    studio_builder_drop_copies(builder);
     studio_ahead_forget(builder->ahead);
     fr_progress_cancel(builder->progress);
     g_mutex_unlock(&builder->lock);
@@ -444,56 +402,4 @@ void studio_builder_paint(StudioBuilder *builder, FrMaterial *material) {
 
 bool studio_builder_is_painting(StudioBuilder *builder) {
     return studio_painter_is_busy(builder->painter);
-}
-
-// What is shown, while nothing changes it; NULL. Under the lock.
-static const FrScene *shown_scene(const StudioBuilder *builder) {
-    return builder->is_changing ? NULL : builder->scene;
-}
-
-void studio_builder_use(StudioBuilder *builder, StudioUse use, void *user) {
-    g_mutex_lock(&builder->lock); // nothing begins while it is held
-    use(user, shown_scene(builder));
-    g_mutex_unlock(&builder->lock);
-}
-
-StudioHit studio_builder_hit(StudioBuilder *builder, const double origin[3],
-                             const double direction[3], double spread) {
-    g_mutex_lock(&builder->lock);
-    const FrScene *scene = shown_scene(builder);
-    StudioHit hit = studio_ground_hit(builder->ground, scene, origin, direction, spread);
-    g_mutex_unlock(&builder->lock);
-    return hit;
-}
-
-StudioGround *studio_builder_ground(StudioBuilder *builder) {
-    g_mutex_lock(&builder->lock);
-    StudioGround *ground = studio_ground_ref(builder->ground);
-    g_mutex_unlock(&builder->lock);
-    return ground;
-}
-
-GArray *studio_builder_stands(StudioBuilder *builder) {
-    g_mutex_lock(&builder->lock);
-    GArray *stands = builder->stands != NULL ? g_array_ref(builder->stands)
-                                             : g_array_new(FALSE, FALSE, sizeof(StudioStand));
-    g_mutex_unlock(&builder->lock);
-    return stands;
-}
-
-bool studio_builder_footing(StudioBuilder *builder, const char *plant, const char *component,
-                            StudioFooting *footing) {
-    g_mutex_lock(&builder->lock);
-    const StudioFooting *found = studio_footing_find(builder->footings, plant, component);
-    *footing = found == NULL ? (StudioFooting){0} : *found;
-    footing->plant = footing->component = NULL; // they are the builder's
-    g_mutex_unlock(&builder->lock);
-    return found != NULL;
-}
-
-bool studio_builder_bounds(StudioBuilder *builder, uint32_t origin, double min[3], double max[3]) {
-    g_mutex_lock(&builder->lock);
-    bool is_there = studio_ground_bounds(shown_scene(builder), origin, min, max);
-    g_mutex_unlock(&builder->lock);
-    return is_there;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "frond/io.h"
+#include "studio/model/copy.h"
 
 typedef struct StudioProfile {
     const char *name;      ///< of the host
@@ -19,20 +20,17 @@ const StudioProfile *studio_profiles(size_t *count);
 typedef struct StudioExported {
     FrStatus status;
     FrIoStats stats;
+    bool is_behind; ///< as studio_copy_take() has it
 } StudioExported;
 
-/// What is written, and how.
+/// How it is written.
 typedef struct StudioExport {
     FrLeaves leaves;
     int lod;
-    double time;  ///< of all clocks, in years; NAN: as the document says
-    int64_t step; ///< of plants that grow bud by bud; < 0: as the document says
-    bool is_one;  ///< only the plant with this origin and number, as in FrStand …
-    uint32_t origin, number;
-    bool in_place; ///< … where it stands, else at the origin
 } StudioExport;
 
-/// Builds a snapshot of a document and writes it in the format of `path`. May be called from any
-/// thread, with a context of its own.
-StudioExported studio_export(FrSource *source, const char *folder, const char *path,
-                             const StudioExport *how, const FrContext *context);
+/// Waits for a copy of what stands and writes it in the format of `path`: all of it, or nothing
+/// where it fails or is cancelled. Called from any thread but the main one, with a context of its
+/// own.
+StudioExported studio_export(StudioCopy *copy, const char *path, const StudioExport *how,
+                             const FrContext *context);
