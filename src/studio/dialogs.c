@@ -156,6 +156,8 @@ static const Shortcut rows[] = {
     {NULL, "<Alt>2", "Contents"},
     {NULL, "<Alt>3", "Text"},
     {NULL, "<Alt>4", "Light"},
+    {NULL, "F9", "Show or fold the panel at the left"},
+    {NULL, "<Shift>F9", "Show or fold the inspector"},
     {NULL, "F1", "Help"},
 };
 

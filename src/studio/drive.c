@@ -127,6 +127,21 @@ static void where(Drive *drive, char *const *words, const char *name) {
     }
 }
 
+// How wide and high a part must be at least.
+static void needs(Drive *drive, char *const *words, const char *name) {
+    (void)words;
+    GtkWidget *window = GTK_WIDGET(drive->window);
+    GtkWidget *part = strcmp(name, "window") == 0 ? window : find_widget(window, name);
+    int width = 0, height = 0;
+    if (part == NULL) {
+        answer("error nothing is called %s", name);
+        return;
+    }
+    gtk_widget_measure(part, GTK_ORIENTATION_HORIZONTAL, -1, &width, NULL, NULL, NULL);
+    gtk_widget_measure(part, GTK_ORIENTATION_VERTICAL, -1, &height, NULL, NULL, NULL);
+    answer("%d %d", width, height);
+}
+
 // Seconds from the last request to a picture; 0: there was none.
 static double seen_after(const StudioWindow *window, gint64 seen) {
     return seen == 0 ? 0 : (double)(seen - window->asked_time) * 1e-6;
@@ -417,6 +432,7 @@ static const struct {
     {"turn", turn, 4, false},
     {"orbit", orbit, 2, true},
     {"where", where, 2, false},
+    {"needs", needs, 2, false},
     {"write", write_text, 2, false},
     {"picture", picture, 2, false},
     {"colour", colour, 3, false},

@@ -33,6 +33,8 @@ static void add_keys(GtkApplication *application) {
         {"win.side('things')", {"<Alt>2"}},
         {"win.side('text')", {"<Alt>3"}},
         {"win.side('light')", {"<Alt>4"}},
+        {"win.show-panel", {"F9"}},
+        {"win.show-inspector", {"<Shift>F9"}},
         {"win.preferences", {"<Control>comma"}},
         {"win.shortcuts", {"<Control>question"}},
         {"win.help", {"F1"}},

@@ -137,8 +137,7 @@ static void on_after(GtkButton *button, StudioTimeStrip *strip) {
 
 static void show_years(StudioTimeStrip *strip) {
     double years = gtk_range_get_value(GTK_RANGE(strip->scale));
-    char *text =
-        strip->is_moved ? g_strdup_printf("%.2f years", years) : g_strdup("as the document says");
+    char *text = strip->is_moved ? g_strdup_printf("%.2f years", years) : g_strdup("as written");
     gtk_label_set_text(GTK_LABEL(strip->years), text);
     gtk_widget_set_sensitive(strip->back, strip->is_moved);
     show_keys(strip);
@@ -388,16 +387,18 @@ static GtkWidget *make_clock(StudioTimeStrip *strip) {
     studio_name(strip->scale, "Time of the plants in years");
     g_signal_connect(strip->scale, "value-changed", G_CALLBACK(on_scale), strip);
     strip->years = gtk_label_new("");
-    gtk_label_set_width_chars(GTK_LABEL(strip->years), 19);
+    gtk_label_set_width_chars(GTK_LABEL(strip->years), 11);
     gtk_widget_add_css_class(strip->years, "numeric");
     strip->span = gtk_spin_button_new_with_range(1, 1000, 1);
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(strip->span), 10);
+    gtk_editable_set_width_chars(GTK_EDITABLE(strip->span), 3);
     studio_tell(strip->span, "Years from end to end");
     g_signal_connect(strip->span, "value-changed", G_CALLBACK(on_span), strip);
     strip->back = studio_flat_button("edit-clear-symbolic", "Show the time that the document says");
     g_signal_connect(strip->back, "clicked", G_CALLBACK(on_back), strip);
     GtkWidget *line = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
     gtk_widget_set_hexpand(line, TRUE);
+    gtk_widget_set_size_request(line, 60, -1);
     gtk_box_append(GTK_BOX(line), make_track(strip));
     gtk_box_append(GTK_BOX(line), strip->scale);
     GtkWidget *parts[] = {strip->play,  strip->before, line,       strip->after,

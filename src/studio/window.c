@@ -198,10 +198,12 @@ void studio_window_show_problem(StudioWindow *window) {
     uint32_t element =
         span.source == NULL ? FR_NONE : fr_contents_around(contents, span.begin, &attribute);
     if (element != FR_NONE && attribute != NULL) {
+        studio_window_ask_pane(window, STUDIO_PANE_INSPECTOR);
         studio_window_select(window, element);
         studio_levels_panel_open(window->levels);
         studio_inspector_reveal(window->inspector, attribute);
     } else {
+        studio_window_ask_pane(window, STUDIO_PANE_SIDE);
         gtk_stack_set_visible_child_name(GTK_STACK(window->side), "text");
         studio_text_panel_go(window->text, span.begin);
     }
@@ -347,11 +349,7 @@ static void remember_sizes(StudioWindow *window) {
         studio_sketch_panel_get_widths(window->sketch, sketch);
         studio_settings_set_int(window->settings, "sketch-width", sketch[0]);
         studio_settings_set_int(window->settings, "sketch-board-width", sketch[1]);
-        studio_settings_set_int(window->settings, "side-width",
-                                gtk_paned_get_position(GTK_PANED(window->outer)));
-        studio_settings_set_int(
-            window->settings, "inspector-width",
-            gtk_widget_get_width(gtk_paned_get_end_child(GTK_PANED(window->inner))));
+        studio_window_remember_panes(window);
     }
     studio_settings_save(window->settings);
 }

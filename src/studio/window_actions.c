@@ -275,7 +275,9 @@ static void do_set(GSimpleAction *action, GVariant *parameter, gpointer data) {
 static void do_inspect(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
     (void)parameter;
-    gtk_widget_child_focus(gtk_paned_get_end_child(GTK_PANED(((StudioWindow *)data)->inner)),
+    StudioWindow *window = data;
+    studio_window_ask_pane(window, STUDIO_PANE_INSPECTOR);
+    gtk_widget_child_focus(gtk_widget_get_parent(GTK_WIDGET(window->inspector)),
                            GTK_DIR_TAB_FORWARD);
 }
 
@@ -328,7 +330,9 @@ static void do_display(GSimpleAction *action, GVariant *state, gpointer data) {
 
 static void do_side(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
-    gtk_stack_set_visible_child_name(GTK_STACK(((StudioWindow *)data)->side),
+    StudioWindow *window = data;
+    studio_window_ask_pane(window, STUDIO_PANE_SIDE);
+    gtk_stack_set_visible_child_name(GTK_STACK(window->side),
                                      g_variant_get_string(parameter, NULL));
 }
 
@@ -452,6 +456,9 @@ void studio_window_update_actions(StudioWindow *window) {
     enable(window, "save",
            is_there &&
                (!studio_document_is_saved(document) || studio_document_path(document) == NULL));
+    bool has_panes = is_there && !studio_window_is_sketching(window);
+    enable(window, "show-panel", has_panes);
+    enable(window, "show-inspector", has_panes);
     bool is_whole = is_there && !studio_document_is_broken(document) &&
                     studio_document_contents(document) != NULL;
     uint32_t plant = is_whole ? studio_window_plant(window) : FR_NONE;

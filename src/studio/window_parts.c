@@ -99,6 +99,15 @@ static GtkWidget *make_menu_button(void) {
     return button;
 }
 
+static GtkWidget *pane_button(const char *icon, const char *action, const char *tip) {
+    GtkWidget *button = gtk_toggle_button_new();
+    gtk_button_set_icon_name(GTK_BUTTON(button), icon);
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+    studio_tell(button, tip);
+    gtk_widget_set_name(button, action);
+    return button;
+}
+
 GtkWidget *studio_window_make_header(StudioWindow *window) {
     GtkWidget *header = adw_header_bar_new();
     window->title = ADW_WINDOW_TITLE(adw_window_title_new("Frond Studio", ""));
@@ -121,7 +130,14 @@ GtkWidget *studio_window_make_header(StudioWindow *window) {
     gtk_actionable_set_action_name(GTK_ACTIONABLE(sketch), "win.sketch");
     gtk_widget_set_tooltip_text(sketch, "Draw the shape of branches (Ctrl+T)");
     adw_header_bar_pack_start(bar, sketch);
-    GtkWidget *hidden[] = {window->undo, window->redo, window->save_button, export, sketch};
+    GtkWidget *side = pane_button("sidebar-show-symbolic", "win.show-panel",
+                                  "Graph, contents, light and text (F9)");
+    GtkWidget *inspector =
+        pane_button("sidebar-show-right-symbolic", "win.show-inspector", "Inspector (Shift+F9)");
+    adw_header_bar_pack_start(bar, side);
+    adw_header_bar_pack_end(bar, inspector);
+    GtkWidget *hidden[] = {window->undo, window->redo, window->save_button, export, sketch,
+                           side,         inspector};
     memcpy(window->welcome_hidden, hidden, sizeof hidden);
     for (size_t i = 0; i < G_N_ELEMENTS(hidden); i++) {
         gtk_widget_set_visible(hidden[i], FALSE);
@@ -203,12 +219,13 @@ static GtkWidget *make_side(StudioWindow *window) {
     return box;
 }
 
-static GtkWidget *make_modes(StudioWindow *window) {
-    static const char *const modes[][3] = {
-        {"Shaded", "shaded", "Surfaces in sun and shade (1)"},
-        {"Wireframe", "wireframe", "The edges of all triangles (2)"},
-        {"Skeleton", "skeleton", "The axes of stems and branches (3)"},
-    };
+static const char *const modes[][3] = {
+    {"Shaded", "shaded", "Surfaces in sun and shade (1)"},
+    {"Wireframe", "wireframe", "The edges of all triangles (2)"},
+    {"Skeleton", "skeleton", "The axes of stems and branches (3)"},
+};
+
+static GtkWidget *make_mode_buttons(void) {
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
     gtk_widget_add_css_class(box, "linked");
     for (size_t i = 0; i < G_N_ELEMENTS(modes); i++) {
@@ -218,9 +235,36 @@ static GtkWidget *make_modes(StudioWindow *window) {
         gtk_widget_set_tooltip_text(button, modes[i][2]);
         gtk_box_append(GTK_BOX(box), button);
     }
+    return box;
+}
+
+// The same in the room of one.
+static GtkWidget *make_mode_menu(void) {
+    GMenu *menu = g_menu_new();
+    for (size_t i = 0; i < G_N_ELEMENTS(modes); i++) {
+        char *action = g_strdup_printf("win.mode::%s", modes[i][1]);
+        g_menu_append(menu, modes[i][0], action);
+        g_free(action);
+    }
+    GtkWidget *button = gtk_menu_button_new();
+    gtk_menu_button_set_label(GTK_MENU_BUTTON(button), "Look");
+    gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
+    gtk_widget_set_tooltip_text(button, "Surfaces, edges or axes (1, 2, 3)");
+    gtk_widget_set_name(button, "modes");
+    gtk_widget_set_halign(button, GTK_ALIGN_END);
+    g_object_unref(menu);
+    return button;
+}
+
+static GtkWidget *make_tools(StudioWindow *window) {
+    GtkWidget *squeezer = adw_squeezer_new();
+    adw_squeezer_set_homogeneous(ADW_SQUEEZER(squeezer), FALSE);
+    adw_squeezer_set_xalign(ADW_SQUEEZER(squeezer), 1);
+    adw_squeezer_add(ADW_SQUEEZER(squeezer), make_mode_buttons());
+    adw_squeezer_add(ADW_SQUEEZER(squeezer), make_mode_menu());
     GtkWidget *tools = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
     gtk_widget_add_css_class(tools, "viewport-tools");
-    gtk_box_append(GTK_BOX(tools), box);
+    gtk_box_append(GTK_BOX(tools), squeezer);
     gtk_box_append(GTK_BOX(tools), studio_wind_button_new(window));
     gtk_box_append(GTK_BOX(tools), studio_action_button("zoom-fit-best-symbolic", "win.frame",
                                                         "Show what is selected, or all (F)"));
@@ -316,7 +360,7 @@ static GtkWidget *make_middle(StudioWindow *window) {
     gtk_widget_set_can_target(window->amount, FALSE);
     gtk_widget_set_visible(window->amount, FALSE); // until there is something to count
     gtk_overlay_add_overlay(overlay, window->amount);
-    gtk_overlay_add_overlay(overlay, make_modes(window));
+    gtk_overlay_add_overlay(overlay, make_tools(window));
     gtk_overlay_add_overlay(overlay, make_picked(window));
     gtk_overlay_add_overlay(overlay, make_problem(window));
     gtk_overlay_add_overlay(overlay, make_busy(window));
@@ -342,25 +386,5 @@ GtkWidget *studio_window_make_panes(StudioWindow *window) {
     gtk_box_append(GTK_BOX(column), GTK_WIDGET(window->inspector));
     gtk_widget_set_size_request(column, 280, -1);
     gtk_widget_add_css_class(column, "inspector");
-    window->inner = gtk_paned_new(GTK_ORIENTATION_HORIZONTAL);
-    window->outer = gtk_paned_new(GTK_ORIENTATION_HORIZONTAL);
-    studio_name(window->inner, "Divider between picture and inspector");
-    studio_name(window->outer, "Divider between panel and picture");
-    GtkPaned *inner = GTK_PANED(window->inner), *outer = GTK_PANED(window->outer);
-    gtk_paned_set_start_child(inner, make_middle(window));
-    gtk_paned_set_end_child(inner, column);
-    gtk_paned_set_resize_end_child(inner, FALSE);
-    gtk_paned_set_shrink_start_child(inner, FALSE);
-    gtk_paned_set_shrink_end_child(inner, FALSE);
-    gtk_paned_set_start_child(outer, make_side(window));
-    gtk_paned_set_end_child(outer, window->inner);
-    gtk_paned_set_resize_start_child(outer, FALSE);
-    gtk_paned_set_shrink_start_child(outer, FALSE);
-    gtk_paned_set_shrink_end_child(outer, FALSE);
-    int side = studio_settings_int(window->settings, "side-width", 380);
-    int width = studio_settings_int(window->settings, "width", 1440);
-    int inspector = studio_settings_int(window->settings, "inspector-width", 360);
-    gtk_paned_set_position(outer, side);
-    gtk_paned_set_position(inner, MAX(320, width - side - inspector));
-    return window->outer;
+    return studio_window_fold_panes(window, make_side(window), make_middle(window), column);
 }

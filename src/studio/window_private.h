@@ -3,6 +3,7 @@
 #pragma once
 
 #include "studio/files.h"
+#include "studio/fold_box.h"
 #include "studio/graph_panel.h"
 #include "studio/inspector.h"
 #include "studio/levels_panel.h"
@@ -44,10 +45,10 @@ struct _StudioWindow {
     GtkWidget *stack; ///< "welcome", "document"
     AdwWindowTitle *title;
     AdwToastOverlay *toasts;
-    AdwToast *toast;          ///< what is said; NULL: nothing
-    guint toast_timer;        ///< ends it; 0: nothing is said
-    GtkWidget *outer, *inner; ///< panes
-    GtkWidget *undo, *redo, *save_button, *welcome_hidden[5];
+    AdwToast *toast;   ///< what is said; NULL: nothing
+    guint toast_timer; ///< ends it; 0: nothing is said
+    StudioFoldBox *panes;
+    GtkWidget *undo, *redo, *save_button, *welcome_hidden[7];
     StudioViewport *viewport;
     GtkWidget *side; ///< stack of graph, things and text
     StudioGraphPanel *graph;
@@ -124,6 +125,16 @@ void studio_window_reveal(GtkWidget *revealer, bool is_shown);
 StudioBudget studio_window_budget(StudioWindow *window);
 GtkWidget *studio_window_make_header(StudioWindow *window);
 GtkWidget *studio_window_make_panes(StudioWindow *window);
+
+// window_panes.c
+
+/// Makes what has the picture between a panel and the inspector, and the actions that fold these.
+GtkWidget *studio_window_fold_panes(StudioWindow *window, GtkWidget *side, GtkWidget *middle,
+                                    GtkWidget *inspector);
+/// Unfolds a pane that is needed now.
+void studio_window_ask_pane(StudioWindow *window, StudioPane pane);
+/// Writes widths, and which panes are wanted, to the settings.
+void studio_window_remember_panes(StudioWindow *window);
 
 // window_cancel.c
 

@@ -33,6 +33,7 @@ static void do_sketch(GSimpleAction *action, GVariant *state, gpointer data) {
     } else {
         leave(window);
     }
+    studio_window_update_actions(window);
 }
 
 void studio_window_forget_sketch(StudioWindow *window) {

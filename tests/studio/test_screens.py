@@ -123,6 +123,78 @@ def test_small(run):
     fits(run, 1280, 720)
 
 
+def is_shown(run, pane):
+    """Whether a pane is unfolded."""
+    try:
+        return run.studio.where(pane + "-pane")[2] > 0
+    except AssertionError:
+        return False
+
+
+def test_netbook(run):
+    """a window of 1024 by 600 has room for picture, graph and inspector, and for every mode"""
+    studio = run.on(1024, 600)
+    run.picture("netbook-welcome")
+    fits(run, 1024, 600)
+    run.open_at(SOURCE / "examples" / "sunflower.frond", "petal")
+    assert is_shown(run, "side") and is_shown(run, "inspector")
+    for name, do in {"petal": "select::petal", "paint": "scene-tool('paint')",
+                     "light": "side('light')", "text": "side('text')",
+                     "sketch": "sketch"}.items():
+        studio.ask("do " + do)
+        run.picture("netbook-" + name)
+        fits(run, 1024, 600)
+        assert int(studio.ask("needs window").split()[0]) <= 1000, name
+    studio.ask("do sketch")
+    run.open_at(SOURCE / "examples" / "lsystems" / "bush.l", "")
+    run.picture("netbook-lsystem")
+    fits(run, 1024, 600)
+
+
+def test_fold(run):
+    """panes fold by key and by button, and what was folded comes back as wide as it was"""
+    studio = run.on(1400, 800)
+    run.open_at(SOURCE / "examples" / "sunflower.frond", "petal")
+    before = {pane: studio.where(pane + "-pane") for pane in ("side", "inspector", "picture")}
+    studio.pointer("key", "F9")
+    studio.wait()
+    assert not is_shown(run, "side") and is_shown(run, "inspector")
+    studio.click(studio.middle("win.show-inspector"))
+    studio.wait()
+    assert not is_shown(run, "inspector")
+    assert studio.where("picture-pane")[2] == studio.where("window")[2]
+    run.picture("folded")
+    studio.pointer("key", "shift+F9")
+    studio.click(studio.middle("win.show-panel"))
+    studio.wait()
+    after = {pane: studio.where(pane + "-pane") for pane in before}
+    assert after == before, (before, after)
+    studio.pointer("key", "F9")
+    studio.pointer("key", "alt+3")  # a page of it unfolds it
+    studio.wait()
+    assert is_shown(run, "side")
+
+
+def test_narrow(run):
+    """where one pane alone has room, it is the one that was asked for last"""
+    studio = run.on(800, 600)
+    run.open_at(SOURCE / "examples" / "sunflower.frond", "petal")
+    assert is_shown(run, "side") and not is_shown(run, "inspector")
+    run.picture("narrow-panel")
+    studio.pointer("key", "shift+F9")
+    studio.wait()
+    assert is_shown(run, "inspector") and not is_shown(run, "side")
+    run.picture("narrow-inspector")
+    studio.click(studio.middle("win.show-panel"))
+    studio.wait()
+    assert is_shown(run, "side") and not is_shown(run, "inspector")
+    studio.click(studio.middle("modes"))
+    studio.pointer("key", "Down", "Down", "Return")
+    studio.wait()
+    run.picture("narrow-wireframe")
+    fits(run, 800, 600)
+
+
 def test_letters(run):
     """letters half as large again have room, in the graph, too"""
     studio = run.on(1600, 1000)
@@ -136,7 +208,8 @@ def test_letters(run):
     assert studio.where("element-id")[3] > 30
 
 
-TESTS = [test_pick, test_handles, test_stroke, test_small, test_letters]
+TESTS = [test_pick, test_handles, test_stroke, test_small, test_netbook, test_fold, test_narrow,
+         test_letters]
 
 
 def main():
