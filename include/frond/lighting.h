@@ -21,6 +21,8 @@ FR_API void fr_lighting_widen(FrLighting *lighting, const FrScene *scene, const 
 /// a changed plant must be a new one. Plants of the scene that are NULL are not there.
 FR_API FR_MUST_USE FrStatus fr_lighting_update(FrLighting *lighting, const FrScene *scene,
                                                const FrContext *context);
+/// Tells that plants seen so far may be freed before the next update: all are meshed anew then.
+FR_API void fr_lighting_detach(FrLighting *lighting);
 /// Answers for points of the world. fr_lighting_update() came first.
 FR_API FR_MUST_USE FrStatus fr_lighting_query(FrLighting *lighting, const vec3s *points,
                                               size_t count, const FrContext *context,

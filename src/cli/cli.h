@@ -200,6 +200,14 @@ void cli_lsystem_name(const char *path, FrScene *scene);
 
 /// Whether any plant of the document grows bud by bud; --steps are its then.
 bool cli_growth_takes_steps(const FrDocument *document);
+/// Scenes of a document at several times, as the options say; what grows is grown once for all.
+typedef struct CliGrowth CliGrowth;
+/// The document must outlive it. NULL after a failure.
+FR_MUST_USE FrStatus cli_growth_open(CliSession *session, const FrDocument *document,
+                                     CliGrowth **growth);
+void cli_growth_close(CliGrowth *growth);
+/// The scene with clocks that show `time`, NAN: what the document says.
+FR_MUST_USE FrStatus cli_growth_scene(CliGrowth *growth, double time, FrScene **scene);
 
 // ---- verbs ------------------------------------------------------------------------------------
 

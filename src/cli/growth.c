@@ -2,7 +2,15 @@
 #include "cli/cli.h"
 
 #include "frond/only.h"
-#include "frond/simulation.h"
+#include "frond/sequence.h"
+
+struct CliGrowth {
+    CliSession *session;
+    FrSequence *sequence;
+    FrOnly *only;    ///< NULL: all
+    char *saved;     ///< of --resume; NULL
+    FrSource *named; ///< what it was read from; NULL
+};
 
 bool cli_growth_takes_steps(const FrDocument *document) {
     const GPtrArray *plants = fr_document_plants(document);
@@ -37,12 +45,12 @@ static FrStatus write_checkpoint(CliSession *session, const FrSimulation *simula
     return status;
 }
 
-/// Once for each step of what grows bud by bud.
+/// Once for each step of what grows bud by bud; a scene that grows from the seeds tells all again.
 static void note_stand(CliSession *session, const FrGrowth *growth) {
     CliStand stand = {.step = fr_growth_step_count(growth)};
     GArray *stands = session->stands;
-    if (stands->len > 0 && g_array_index(stands, CliStand, stands->len - 1).step >= stand.step) {
-        return;
+    while (stands->len > 0 && g_array_index(stands, CliStand, stands->len - 1).step >= stand.step) {
+        g_array_set_size(stands, stands->len - 1);
     }
     for (uint32_t i = 0; i < fr_growth_plant_count(growth); i++) {
         if (fr_growth_is_alive(growth, i)) {
@@ -63,11 +71,7 @@ static FrStatus after_step(void *data, const FrSimulation *simulation, const FrC
                                                 : write_checkpoint(session, simulation, context);
 }
 
-static FrStatus grow_all(CliSession *session, const FrDocument *document, double time,
-                         FrScene **scene) {
-    const CliOptions *options = session->options;
-    *scene = NULL;
-    g_array_set_size(session->stands, 0);
+static FrStatus check_options(const CliOptions *options, const FrDocument *document) {
     if ((options->checkpoint != NULL || options->resume != NULL) && !grows_by_steps(document)) {
         cli_message("nothing in the document grows step by step, so there is nothing to save or "
                     "resume");
@@ -79,49 +83,78 @@ static FrStatus grow_all(CliSession *session, const FrDocument *document, double
                     steps->max, options->steps);
         return FR_ERR_USAGE;
     }
-    FrSceneOptions how = {.seed = options->seed,
-                          .time = time,
-                          .steps = options->steps,
-                          .after_step = after_step,
-                          .data = session};
-    char *saved = NULL;
-    FrSource *named = NULL;
-    if (options->resume != NULL) {
-        GError *error = NULL;
-        if (!g_file_get_contents(options->resume, &saved, &how.resume_size, &error)) {
-            cli_message("cannot resume: %s", error->message);
-            g_error_free(error);
-            return FR_ERR_MACHINE;
-        }
-        how.resume = saved;
-        named = fr_source_new(options->resume, "", 0); // its bytes are no text to show
-        how.resume_span = (FrSpan){.source = named};
+    return FR_OK;
+}
+
+/// Reads what is to be resumed.
+static FrStatus read_saved(CliGrowth *growth, FrSceneOptions *how) {
+    const char *resume = growth->session->options->resume;
+    GError *error = NULL;
+    if (resume == NULL) {
+        return FR_OK;
     }
-    FrStatus status = fr_scene_build_with(document, &how, &session->context, scene);
-    if (named != NULL) {
-        fr_source_unref(named);
+    if (!g_file_get_contents(resume, &growth->saved, &how->resume_size, &error)) {
+        cli_message("cannot resume: %s", error->message);
+        g_error_free(error);
+        return FR_ERR_MACHINE;
     }
-    g_free(saved);
+    how->resume = growth->saved;
+    growth->named = fr_source_new(resume, "", 0); // its bytes are no text to show
+    how->resume_span = (FrSpan){.source = growth->named};
+    return FR_OK;
+}
+
+FrStatus cli_growth_open(CliSession *session, const FrDocument *document, CliGrowth **growth) {
+    const CliOptions *options = session->options;
+    CliGrowth *made = g_new0(CliGrowth, 1);
+    made->session = session;
+    FrSceneOptions how = {
+        .seed = options->seed, .steps = options->steps, .after_step = after_step, .data = session};
+    FrStatus status = check_options(options, document);
+    if (status == FR_OK && options->only->len > 0) { // a wrong name is told before anything grows
+        status = fr_only_new(document, (const char *const *)options->only->pdata,
+                             options->only->len, &session->context, &made->only);
+    }
+    if (status == FR_OK) {
+        status = read_saved(made, &how);
+    }
+    made->sequence = fr_sequence_new(document, &how);
+    g_array_set_size(session->stands, 0);
+    if (status != FR_OK) {
+        g_clear_pointer(&made, cli_growth_close);
+    }
+    *growth = made;
+    return status;
+}
+
+void cli_growth_close(CliGrowth *growth) {
+    if (growth != NULL) {
+        fr_sequence_free(growth->sequence);
+        fr_only_free(growth->only);
+        fr_source_unref(growth->named);
+        g_free(growth->saved);
+        g_free(growth);
+    }
+}
+
+FrStatus cli_growth_scene(CliGrowth *growth, double time, FrScene **scene) {
+    CliSession *session = growth->session;
+    FrStatus status = fr_sequence_scene(growth->sequence, time, &session->context, scene);
+    if (status == FR_OK && growth->only != NULL) {
+        bool is_there = fr_only_apply(growth->only, *scene, session->options->in_place);
+        FR_ASSERT(is_there);
+    }
     return status;
 }
 
 FrStatus cli_session_grow(CliSession *session, const FrDocument *document, double time,
                           FrScene **scene) {
-    const GPtrArray *names = session->options->only;
-    if (names->len == 0) {
-        return grow_all(session, document, time, scene);
-    }
+    CliGrowth *growth;
     *scene = NULL;
-    FrOnly *only; // a wrong name is told before anything grows
-    FrStatus status = fr_only_new(document, (const char *const *)names->pdata, names->len,
-                                  &session->context, &only);
+    FrStatus status = cli_growth_open(session, document, &growth);
     if (status == FR_OK) {
-        status = grow_all(session, document, time, scene);
+        status = cli_growth_scene(growth, time, scene);
     }
-    if (status == FR_OK) {
-        bool is_there = fr_only_apply(only, *scene, session->options->in_place);
-        FR_ASSERT(is_there);
-    }
-    fr_only_free(only);
+    cli_growth_close(growth);
     return status;
 }

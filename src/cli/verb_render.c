@@ -126,35 +126,41 @@ static void tell_once(CliSession *session, FrDiags *all) {
     session->context.diags = all;
 }
 
+/// Frames of one document.
+typedef struct Frames {
+    FrDocument *document;
+    CliGrowth *growth; ///< NULL: each is a step of an L-system
+} Frames;
+
 /// A frame of a document is a time, that of an L-system a step of its derivation.
-static FrStatus build_frame(CliSession *session, FrDocument *document, int64_t frame,
+static FrStatus build_frame(CliSession *session, const Frames *frames, int64_t frame,
                             FrScene **scene) {
-    const CliOptions *options = session->options;
     double began = cli_now();
-    double start = isnan(options->time) ? 0 : options->time;
-    double time = start + (double)frame * fr_document_scene(document)->frame_time;
+    double start = isnan(session->options->time) ? 0 : session->options->time;
+    double time = start + (double)frame * fr_document_scene(frames->document)->frame_time;
     FrDiags *all = session->context.diags;
     session->context.diags = fr_diags_new();
-    FrStatus status = FR_OK;
-    if (cli_is_lsystem(g_ptr_array_index(options->files, 0))) {
-        status = cli_lsystem_set_steps(session, document, frame);
-        time = NAN;
-    }
-    if (status == FR_OK) {
-        status = cli_session_grow(session, document, time, scene);
+    FrStatus status;
+    if (frames->growth != NULL) {
+        status = cli_growth_scene(frames->growth, time, scene);
+    } else {
+        status = cli_lsystem_set_steps(session, frames->document, frame);
+        if (status == FR_OK) {
+            status = cli_session_grow(session, frames->document, NAN, scene);
+        }
     }
     tell_once(session, all);
     session->build_seconds += cli_now() - began;
     return status;
 }
 
-/// All pictures show what the last and the first hold, so that a plant is seen to grow.
-static FrStatus frame_all(CliSession *session, FrDocument *document, double min[3], double max[3]) {
+/// All pictures show what the first and the last hold, so that a plant is seen to grow.
+static FrStatus frame_all(CliSession *session, const Frames *frames, double min[3], double max[3]) {
     const CliOptions *options = session->options;
-    const int64_t ends[2] = {options->last_frame, options->first_frame};
+    const int64_t ends[2] = {options->first_frame, options->last_frame};
     for (int k = 0; k < 2; k++) {
         FrScene *scene;
-        FrStatus status = build_frame(session, document, ends[k], &scene);
+        FrStatus status = build_frame(session, frames, ends[k], &scene);
         if (status != FR_OK) {
             return status;
         }
@@ -170,14 +176,14 @@ static FrStatus frame_all(CliSession *session, FrDocument *document, double min[
     return FR_OK;
 }
 
-static FrStatus render_frames(CliSession *session, FrDocument *document) {
+static FrStatus render_frames(CliSession *session, const Frames *frames) {
     const CliOptions *options = session->options;
     double min[3], max[3];
-    FrStatus status = frame_all(session, document, min, max);
+    FrStatus status = frame_all(session, frames, min, max);
     for (int64_t frame = options->first_frame; frame <= options->last_frame && status == FR_OK;
          frame++) {
         FrScene *scene;
-        status = build_frame(session, document, frame, &scene);
+        status = build_frame(session, frames, frame, &scene);
         if (status != FR_OK) {
             break;
         }
@@ -198,12 +204,16 @@ static FrStatus render_frames(CliSession *session, FrDocument *document) {
 
 static FrStatus render_sequence(CliSession *session) {
     const char *path = g_ptr_array_index(session->options->files, 0);
-    FrDocument *document;
-    FrStatus status = cli_session_read(session, path, &document);
-    if (status == FR_OK) {
-        status = render_frames(session, document);
+    Frames frames = {0};
+    FrStatus status = cli_session_read(session, path, &frames.document);
+    if (status == FR_OK && !cli_is_lsystem(path)) {
+        status = cli_growth_open(session, frames.document, &frames.growth);
     }
-    fr_document_free(document);
+    if (status == FR_OK) {
+        status = render_frames(session, &frames);
+    }
+    cli_growth_close(frames.growth);
+    fr_document_free(frames.document);
     return status;
 }
 

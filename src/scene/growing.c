@@ -25,6 +25,9 @@ void fr_sprout_free(void *data) {
 }
 
 void fr_growing_free(FrGrowing *growing) {
+    if (growing == NULL) {
+        return;
+    }
     g_ptr_array_unref(growing->sprouts);
     fr_lighting_free(growing->lighting);
     fr_clearance_free(growing->clearance);
@@ -267,6 +270,18 @@ FrStatus fr_growing_finish(FrGrowing *growing, FrScene *scene, const FrContext *
         scene->light = fr_lighting_stats(growing->lighting);
     }
     return status == FR_OK ? show(growing, false) : status;
+}
+
+bool fr_growing_go_on(FrGrowing *growing, const FrGrowing *next) {
+    // Who may make no step has got no room to ask for.
+    if (growing->steps == 0 || growing->done > next->steps) {
+        return false;
+    }
+    growing->steps = next->steps;
+    if (growing->lighting != NULL) {
+        fr_lighting_detach(growing->lighting);
+    }
+    return true;
 }
 
 bool fr_growing_is_any(const FrGrowing *growing) {

@@ -36,6 +36,9 @@ FR_MUST_USE FrStatus fr_growing_begin(FrGrowing *growing, const FrScene *scene, 
 uint64_t fr_growing_longest(const FrGrowing *growing);
 /// True while any has steps left.
 bool fr_growing_has_steps(const FrGrowing *growing);
+/// Lets plants go on with as many steps as `next`, of the same plants, may take, in a scene of
+/// which nothing is the same object. False, and nothing done, if they have made more of them.
+bool fr_growing_go_on(FrGrowing *growing, const FrGrowing *next);
 /// One time around the loop.
 FR_MUST_USE FrStatus fr_growing_step(FrGrowing *growing, FrScene *scene, const FrContext *context);
 /// The plants as they have been derived, which the scene's show one step later: those of the scene

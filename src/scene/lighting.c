@@ -264,6 +264,12 @@ FrStatus fr_lighting_update(FrLighting *lighting, const FrScene *scene, const Fr
     return status;
 }
 
+void fr_lighting_detach(FrLighting *lighting) {
+    for (guint i = 0; i < lighting->meshed->len; i++) {
+        g_array_index(lighting->meshed, Meshed, i).plant = NULL;
+    }
+}
+
 FrStatus fr_lighting_query(FrLighting *lighting, const vec3s *points, size_t count,
                            const FrContext *context, FrLightAnswer *answers) {
     return fr_light_query(lighting->light, points, count, context, answers);

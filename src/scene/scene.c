@@ -4,6 +4,7 @@
 #include "scene/rational.h"
 #include "scene/rebuild.h"
 #include "scene/sampled.h"
+#include "scene/sequence.h"
 #include "scene/simulation.h"
 #include "scene/varied.h"
 
@@ -25,6 +26,8 @@ typedef struct Build {
     FrHills *hills;         ///< NULL: the ground is level
     GPtrArray *definitions; ///< FrPlantDef *, by plant of the scene
     bool is_check;          ///< nothing is sampled or grown
+    uint64_t steps;         ///< of growth bud by bud
+    FrSequence *sequence;   ///< NULL
     FrEcosystem *ecosystem;
 } Build;
 
@@ -336,6 +339,24 @@ void fr_scene_forget_parts(FrScene *scene, const FrSceneParts *parts) {
     }
 }
 
+/// What grows step by step, before its first step.
+static FrStatus begin_growing(Build *build) {
+    FrScene *scene = build->scene;
+    FrStatus status = FR_OK;
+    if (build->is_check) {
+        status = fr_ecosystem_check(build->ecosystem, scene, build->hills, build->context);
+    } else if (!fr_ecosystem_is_empty(build->ecosystem)) {
+        status = fr_ecosystem_begin(build->ecosystem, scene, build->hills, build->context);
+    }
+    if (status == FR_OK) {
+        uint8_t *is_moving = g_new0(uint8_t, scene->plants->len + 1);
+        fr_ecosystem_mark(build->ecosystem, is_moving);
+        status = fr_growing_begin(build->growing, scene, is_moving, build->context);
+        g_free(is_moving);
+    }
+    return status;
+}
+
 /// Everything but what grows step by step.
 static FrStatus build_all(Build *build) {
     FrScene *scene = build->scene;
@@ -349,16 +370,10 @@ static FrStatus build_all(Build *build) {
     if (status == FR_OK) {
         status = fr_sampled_build(build->sampled, build->document, scene, build->context);
     }
-    if (status == FR_OK && build->is_check) {
-        status = fr_ecosystem_check(build->ecosystem, scene, build->hills, build->context);
-    } else if (status == FR_OK && !fr_ecosystem_is_empty(build->ecosystem)) {
-        status = fr_ecosystem_begin(build->ecosystem, scene, build->hills, build->context);
-    }
-    if (status == FR_OK) {
-        uint8_t *is_moving = g_new0(uint8_t, scene->plants->len + 1);
-        fr_ecosystem_mark(build->ecosystem, is_moving);
-        status = fr_growing_begin(build->growing, scene, is_moving, build->context);
-        g_free(is_moving);
+    if (status == FR_OK &&
+        (build->sequence == NULL || !fr_sequence_hand_over(build->sequence, scene, build->steps,
+                                                           &build->ecosystem, &build->growing))) {
+        status = begin_growing(build);
     }
     if (status == FR_OK) {
         set_surfaces(build);
@@ -394,7 +409,9 @@ FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow *how, const
                    .parts = how->parts,
                    .sampled = fr_sampled_new(),
                    .definitions = g_ptr_array_new(),
-                   .is_check = how->is_check};
+                   .is_check = how->is_check,
+                   .steps = steps_of(document, how),
+                   .sequence = how->sequence};
     build.ecosystem =
         fr_ecosystem_new(document, options->seed, how->history,
                          how->previous == NULL ? NULL : how->previous->ecosystem, scene);
@@ -409,7 +426,7 @@ FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow *how, const
                                  .ecosystem = build.ecosystem,
                                  .growing = build.growing,
                                  .hills = build.hills,
-                                 .steps = steps_of(document, how),
+                                 .steps = build.steps,
                                  .seed = options->seed};
     if (status != FR_OK) {
         if (how->parts != NULL) {

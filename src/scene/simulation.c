@@ -93,14 +93,14 @@ uint64_t fr_simulation_step_count(const FrSimulation *simulation) {
 
 // ---- all at once ------------------------------------------------------------------------------
 
-/// Steps of growth bud by bud so far.
-static uint64_t steps_done(const FrSimulation *simulation) {
+uint64_t fr_simulation_done(const FrSimulation *simulation) {
     const FrGrowth *growth = fr_simulation_growth(simulation);
     return growth == NULL ? 0 : fr_growth_step_count(growth);
 }
 
 static bool has_steps(const FrSimulation *simulation) {
-    return (fr_simulation_is_growing(simulation) && steps_done(simulation) < simulation->steps) ||
+    return (fr_simulation_is_growing(simulation) &&
+            fr_simulation_done(simulation) < simulation->steps) ||
            fr_growing_has_steps(simulation->growing);
 }
 
@@ -113,10 +113,10 @@ static uint64_t steps_of(const FrSimulation *simulation) {
 static FrStatus run_step(FrSimulation *simulation, const FrSceneOptions *options,
                          const FrContext *context) {
     bool is_growing =
-        fr_simulation_is_growing(simulation) && steps_done(simulation) < simulation->steps;
+        fr_simulation_is_growing(simulation) && fr_simulation_done(simulation) < simulation->steps;
     FrStatus status =
         is_growing ? fr_simulation_step(simulation, context) : step_growing(simulation, context);
-    uint64_t step = MAX(steps_done(simulation), simulation->scene->steps->len);
+    uint64_t step = MAX(fr_simulation_done(simulation), simulation->scene->steps->len);
     if (status == FR_OK && options->after_step != NULL) {
         status = options->after_step(options->data, simulation, context);
     }
@@ -124,14 +124,13 @@ static FrStatus run_step(FrSimulation *simulation, const FrSceneOptions *options
     return status == FR_OK && fr_progress_is_cancelled(context->progress) ? FR_CANCELLED : status;
 }
 
-/// All steps that are asked for, and the plants as they stand then.
-static FrStatus run(FrSimulation *simulation, const FrSceneOptions *options,
-                    const FrContext *context) {
+FrStatus fr_simulation_run(FrSimulation *simulation, const FrSceneOptions *options,
+                           const FrContext *context) {
     FrStatus status = FR_OK;
     if (options->resume != NULL) {
         status = fr_simulation_restore(simulation, options->resume, options->resume_size,
                                        options->resume_span, context);
-        uint64_t reached = steps_done(simulation);
+        uint64_t reached = fr_simulation_done(simulation);
         if (status == FR_OK && reached > simulation->steps) {
             fr_diags_add(context->diags, FR_WARNING, "resumed-later", options->resume_span,
                          "the saved growth has done %" G_GUINT64_FORMAT
@@ -161,7 +160,7 @@ FrStatus fr_scene_run(const FrDocument *document, const FrSceneHow *how, const F
     if (status != FR_OK) {
         return status;
     }
-    status = run(&simulation, &how->options, context);
+    status = fr_simulation_run(&simulation, &how->options, context);
     if (status == FR_OK) {
         *scene = g_steal_pointer(&simulation.scene);
     } else if (how->parts != NULL) {

@@ -24,6 +24,7 @@ typedef struct FrSceneHow {
     uint32_t history;             ///< steps that can be undone
     const FrSimulation *previous; ///< whose plants go on growing; then its ecosystem is an empty
                                   ///< shell. NULL: none
+    struct FrSequence *sequence;  ///< whose last scene may have grown part of the way; NULL
     FrSceneParts *parts;          ///< NULL
     FrGrowingWatch watch;
     bool is_check; ///< nothing is sampled or grown
@@ -36,6 +37,11 @@ FR_MUST_USE FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow
 void fr_simulation_clear(FrSimulation *simulation);
 /// Makes what stands in the way of buds anew after a state was taken up.
 FR_MUST_USE FrStatus fr_simulation_take_up(FrSimulation *simulation, const FrContext *context);
+/// All steps that are asked for, and the plants as they stand then.
+FR_MUST_USE FrStatus fr_simulation_run(FrSimulation *simulation, const FrSceneOptions *options,
+                                       const FrContext *context);
+/// Steps of growth bud by bud so far.
+uint64_t fr_simulation_done(const FrSimulation *simulation);
 /// Builds a document with all its steps.
 FR_MUST_USE FrStatus fr_scene_run(const FrDocument *document, const FrSceneHow *how,
                                   const FrContext *context, FrScene **scene);

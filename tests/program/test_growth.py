@@ -1,5 +1,6 @@
 """Growth bud by bud: steps, saving, resuming, being killed, and the forest of Figure 8."""
 
+import json
 import os
 import signal
 import subprocess
@@ -154,6 +155,19 @@ def frames(folder):
     pictures = sorted(path.name for path in folder.glob("*.png"))
     assert pictures == ["grow-0002.png", "grow-0003.png", "grow-0004.png"], pictures
     assert len({(folder / name).read_bytes() for name in pictures}) == 3
+
+
+def one_growth(folder):
+    """All frames come from one growth, and the last of many is that of the frame by itself."""
+    told = []
+    for range_ in ("2..5", "5..5"):
+        stats = folder / "stats.json"
+        tap.run("render", PARTS, "-q", "-o", folder / "grow.png", "--frames", range_, "--size", "8x6",
+                "--samples", 1, "--stats", stats)
+        told.append(json.loads(stats.read_text()))
+    assert told[0]["digest"] == told[1]["digest"]
+    steps = [[(step["digest"], step["living"], step["wood"]) for step in one["per_step"]] for one in told]
+    assert len(steps[0]) == 5 and steps[0] == steps[1], steps
 
 
 def forest(folder):
@@ -321,6 +335,7 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
          ("/program/growth/checkpoints of other documents, seeds and versions are refused", refused),
          ("/program/growth/damaged checkpoints are refused", damaged),
          ("/program/growth/frames show the steps", frames),
+         ("/program/growth/many frames grow as each does by itself", one_growth),
          ("/program/growth/the forest has the numbers of Figure 8", forest),
          ("/program/growth/the living and their wood are counted", thinning),
          ("/program/growth/a state with more steps than asked for is told", resumed_later),
