@@ -1,6 +1,7 @@
 /// frond presets and frond new: the species that come with the program, and presets of the user's
 /// own.
 #include "cli/cli.h"
+#include "frond/presets.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -13,6 +14,8 @@ enum { FOLDERS_UP = 4 };
 
 /// What `frond new` begins with where no species is named.
 static const char usual[] = "plant";
+
+static const char document_ending[] = ".frond";
 
 /// `folder`/presets if it is there, else NULL.
 static char *presets_in(const char *folder) {
@@ -62,62 +65,36 @@ static char *find_presets(void) {
     return presets;
 }
 
-static int compare_names(const void *a, const void *b) {
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-/// The folder of presets that the user has kept in the studio.
-static char *own_presets(void) {
-    return g_build_filename(g_get_user_data_dir(), "frond", "presets", NULL);
-}
-
-/// The names of the presets in a folder, sorted; none if it is not there.
-static GPtrArray *list_presets(const char *folder) {
-    GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
-    GDir *directory = g_dir_open(folder, 0, NULL);
-    const char *name;
-    while (directory != NULL && (name = g_dir_read_name(directory)) != NULL) {
-        if (g_str_has_suffix(name, ".frond")) {
-            g_ptr_array_add(names, g_strndup(name, strlen(name) - strlen(".frond")));
-        }
-    }
-    if (directory != NULL) {
-        g_dir_close(directory);
-    }
-    g_ptr_array_sort(names, compare_names);
-    return names;
-}
-
-static char *preset_path(const char *folder, const char *name) {
-    char *file = g_strconcat(name, ".frond", NULL);
-    char *path = g_build_filename(folder, file, NULL);
-    g_free(file);
-    return path;
-}
-
-static char *title_of(CliSession *session, const char *folder, const char *name) {
-    char *path = preset_path(folder, name);
-    FrDocument *document;
-    FrStatus status = fr_document_load(path, &session->context, &document);
-    char *title = document == NULL || status != FR_OK ? NULL : fr_document_title(document);
-    fr_document_free(document);
+/// Reads a preset; what is wrong with it is told with its place.
+static FrStatus read_preset(CliSession *session, const char *folder, const char *name,
+                            FrDocument **document) {
+    char *path = fr_presets_file(folder, name, document_ending);
+    FrStatus status = fr_document_load(path, &session->context, document);
     g_free(path);
-    return title == NULL ? g_strdup("") : title;
+    return status;
 }
 
 /// Tells of the presets in a folder: in a list, or line by line if `list` is NULL.
 static void tell_presets(CliSession *session, const char *folder, bool is_own, json_t *list) {
-    GPtrArray *names = list_presets(folder);
+    GPtrArray *names = fr_presets_list(folder);
     for (guint i = 0; i < names->len; i++) {
         const char *name = g_ptr_array_index(names, i);
-        char *title = is_own ? g_strdup("your own") : title_of(session, folder, name);
+        FrDocument *document;
+        bool is_right = read_preset(session, folder, name, &document) == FR_OK;
+        char *title = is_right && !is_own ? fr_document_title(document) : NULL;
+        const char *shown = title != NULL ? title
+                            : !is_right   ? "not right: it cannot be used"
+                            : is_own      ? "your own"
+                                          : "";
         if (list != NULL) {
-            json_array_append_new(list, json_pack("{s:s, s:s, s:b}", "name", name, "title",
-                                                  is_own ? "" : title, "own", is_own));
+            json_array_append_new(list, json_pack("{s:s, s:s, s:b, s:b}", "name", name, "title",
+                                                  title == NULL ? "" : title, "own", is_own,
+                                                  "broken", !is_right));
         } else {
-            printf("%-16s %s\n", name, title);
+            printf("%-16s %s\n", name, shown);
         }
         g_free(title);
+        fr_document_free(document);
     }
     g_ptr_array_unref(names);
 }
@@ -128,7 +105,7 @@ FrStatus cli_presets(CliSession *session) {
         return FR_ERR_MACHINE;
     }
     json_t *list = session->options->is_json ? json_array() : NULL;
-    char *own = own_presets();
+    char *own = fr_presets_folder();
     tell_presets(session, folder, false, list);
     tell_presets(session, own, true, list);
     if (list != NULL) {
@@ -158,7 +135,7 @@ static bool write_new_file(const char *path, const char *text, gsize size) {
 }
 
 static FrStatus copy_preset(const char *folder, const char *preset, const char *path) {
-    char *from = preset_path(folder, preset);
+    char *from = fr_presets_file(folder, preset, document_ending);
     char *text = NULL;
     gsize size;
     GError *error = NULL;
@@ -178,6 +155,23 @@ static FrStatus copy_preset(const char *folder, const char *preset, const char *
     return status;
 }
 
+/// Whether a document can begin with a preset; what is wrong with it is told with its place.
+static FrStatus check_preset(CliSession *session, const char *folder, const char *preset) {
+    FrDocument *document;
+    FrScene *scene = NULL;
+    FrStatus status = read_preset(session, folder, preset, &document);
+    if (status == FR_OK && fr_document_plants(document)->len > 0) {
+        status = fr_scene_check(document, -1, &session->context, &scene);
+    }
+    fr_scene_free(scene);
+    fr_document_free(document);
+    if (status != FR_OK) {
+        cli_session_flush(session);
+        cli_message("the preset '%s' is not right: no document is begun with it", preset);
+    }
+    return status;
+}
+
 /// NAME.frond of a name without a folder's end; NULL after a message. Free with g_free().
 static char *new_path(const char *name) {
     bool is_name = *name != '\0' && !g_str_has_suffix(name, "/");
@@ -194,7 +188,7 @@ static const char *folder_of(const char *preset, const char *shipped, const char
     GPtrArray *all = g_ptr_array_new_with_free_func(g_free);
     const char *found = NULL;
     for (int i = 0; i < 2; i++) {
-        GPtrArray *names = list_presets(folders[i]);
+        GPtrArray *names = fr_presets_list(folders[i]);
         if (found == NULL && g_ptr_array_find_with_equal_func(names, preset, g_str_equal, NULL)) {
             found = folders[i];
         }
@@ -212,13 +206,14 @@ static const char *folder_of(const char *preset, const char *shipped, const char
 
 FrStatus cli_new(CliSession *session) {
     const CliOptions *options = session->options;
-    char *shipped = find_presets(), *own = own_presets();
+    char *shipped = find_presets(), *own = fr_presets_folder();
     FrStatus status = shipped == NULL ? FR_ERR_MACHINE : FR_ERR_USAGE;
     const char *preset = options->preset == NULL ? usual : options->preset;
     const char *folder = shipped == NULL ? NULL : folder_of(preset, shipped, own);
     char *path = folder == NULL ? NULL : new_path(g_ptr_array_index(options->files, 0));
     if (path != NULL) {
-        status = copy_preset(folder, preset, path);
+        status = folder == own ? check_preset(session, folder, preset) : FR_OK;
+        status = status == FR_OK ? copy_preset(folder, preset, path) : status;
         if (status == FR_OK && !options->is_quiet) {
             printf("%s\n", path);
         }

@@ -1,6 +1,6 @@
 #include "studio/files.h"
 
-#include "studio/model/presets.h"
+#include "frond/presets.h"
 
 enum { FOLDERS_UP = 4 };
 
@@ -44,14 +44,14 @@ char *studio_manual_page(const char *name) {
 
 GPtrArray *studio_shipped_presets(void) {
     char *folder = studio_data_file("presets");
-    GPtrArray *names = studio_presets_list(folder);
+    GPtrArray *names = fr_presets_list(folder);
     g_free(folder);
     return names;
 }
 
 GPtrArray *studio_own_presets(void) {
-    char *folder = studio_presets_folder();
-    GPtrArray *names = studio_presets_list(folder);
+    char *folder = fr_presets_folder();
+    GPtrArray *names = fr_presets_list(folder);
     g_free(folder);
     return names;
 }
@@ -69,10 +69,10 @@ GPtrArray *studio_preset_names(void) {
 }
 
 char *studio_preset_file(const char *name, const char *ending) {
-    char *folder = studio_presets_folder();
-    char *document = existing(studio_presets_file(folder, name, ".frond")), *file;
+    char *folder = fr_presets_folder();
+    char *document = existing(fr_presets_file(folder, name, ".frond")), *file;
     if (document != NULL) {
-        file = existing(studio_presets_file(folder, name, ending));
+        file = existing(fr_presets_file(folder, name, ending));
     } else {
         char *relative = g_strconcat("presets/", name, ending, NULL);
         file = studio_data_file(relative);

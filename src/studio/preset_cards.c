@@ -1,10 +1,13 @@
 #include "studio/preset_cards.h"
 
+#include "frond/presets.h"
 #include "studio/accessible.h"
 #include "studio/files.h"
 #include "studio/model/presets.h"
 
 #include <adwaita.h>
+#include <glib/gstdio.h>
+#include <string.h>
 
 enum { PICTURE_WIDTH = 120, PICTURE_HEIGHT = 150, LATER_MILLISECONDS = 150 };
 
@@ -12,6 +15,7 @@ struct _StudioPresetCards {
     GtkBox parent;
     GFileMonitor *monitor; // of the user's presets
     GHashTable *drawn;     // names of presets whose picture has been asked for
+    GHashTable *broken;    // name → what is wrong with a preset
     guint later;           // timer: what has changed is shown
     GtkWidget *own_heading, *own;
 };
@@ -25,16 +29,37 @@ G_DEFINE_TYPE(StudioPresetCards, studio_preset_cards, GTK_TYPE_BOX)
 static void draw_in_thread(GTask *task, gpointer source, gpointer name, GCancellable *cancellable) {
     (void)source;
     (void)cancellable;
-    char *folder = studio_presets_folder();
+    char *folder = fr_presets_folder(), *file = fr_presets_file(folder, name, ".frond");
+    char *problem = studio_presets_problem(file);
     FrContext context = fr_context_default();
-    FrStatus status = studio_presets_draw(folder, name, &context);
+    bool is_drawn = problem == NULL && studio_presets_draw(folder, name, &context) == FR_OK;
+    if (problem == NULL && !is_drawn) {
+        problem = g_strdup("it has no picture, as nothing grows from it");
+    }
+    g_task_return_pointer(task, problem, g_free); // NULL: the monitor sees the picture
+    g_free(file);
     g_free(folder);
-    g_task_return_boolean(task, status == FR_OK); // the monitor sees the file
+}
+
+static void fill_own(StudioPresetCards *cards);
+
+static void on_drawn(GObject *object, GAsyncResult *result, gpointer data) {
+    (void)data;
+    StudioPresetCards *cards = STUDIO_PRESET_CARDS(object);
+    char *problem = g_task_propagate_pointer(G_TASK(result), NULL);
+    const char *name = g_task_get_task_data(G_TASK(result));
+    if (cards->broken != NULL && problem != NULL) { // they are still there
+        g_hash_table_insert(cards->broken, g_strdup(name), g_strdup(problem));
+        fill_own(cards);
+    } else if (cards->broken != NULL && g_hash_table_remove(cards->broken, name)) {
+        fill_own(cards);
+    }
+    g_free(problem);
 }
 
 static void draw(StudioPresetCards *cards, const char *name) {
     if (g_hash_table_add(cards->drawn, g_strdup(name))) {
-        GTask *task = g_task_new(NULL, NULL, NULL, NULL);
+        GTask *task = g_task_new(cards, NULL, on_drawn, NULL);
         g_task_set_task_data(task, g_strdup(name), g_free);
         g_task_run_in_thread(task, draw_in_thread);
         g_object_unref(task);
@@ -43,9 +68,13 @@ static void draw(StudioPresetCards *cards, const char *name) {
 
 // ---- cards -------------------------------------------------------------------------------------
 
-static GtkWidget *make_picture(const char *file) {
+static GtkWidget *make_picture(const char *file, bool is_broken) {
     GtkWidget *picture;
-    if (file != NULL) {
+    if (is_broken) {
+        picture = gtk_image_new_from_icon_name("dialog-warning-symbolic");
+        gtk_image_set_pixel_size(GTK_IMAGE(picture), 48);
+        gtk_widget_add_css_class(picture, "warning");
+    } else if (file != NULL) {
         picture = gtk_picture_new_for_filename(file);
         gtk_picture_set_can_shrink(GTK_PICTURE(picture), TRUE);
     } else {
@@ -84,12 +113,13 @@ static GtkWidget *make_menu(const char *name) {
     return button;
 }
 
-static GtkWidget *make_card(const char *name, bool is_own, const char *file) {
+// `problem`: what is wrong with it; NULL: nothing.
+static GtkWidget *make_card(const char *name, bool is_own, const char *file, const char *problem) {
     char *title = is_own ? g_strdup(name) : studio_preset_title(name);
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
     GtkWidget *label = gtk_label_new(title);
     gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
-    gtk_box_append(GTK_BOX(box), make_picture(file));
+    gtk_box_append(GTK_BOX(box), make_picture(file, problem != NULL));
     gtk_box_append(GTK_BOX(box), label);
     GtkWidget *child = gtk_flow_box_child_new();
     if (is_own) {
@@ -101,7 +131,9 @@ static GtkWidget *make_card(const char *name, bool is_own, const char *file) {
     gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(child), box);
     gtk_widget_add_css_class(child, "preset");
     gtk_widget_set_name(child, name);
-    studio_tell(child, title);
+    char *tip = problem == NULL ? g_strdup(title) : g_strdup_printf("%s: %s", title, problem);
+    studio_tell(child, tip);
+    g_free(tip);
     g_free(title);
     return child;
 }
@@ -134,6 +166,18 @@ static GtkWidget *make_heading(const char *text) {
 
 // ---- the user's --------------------------------------------------------------------------------
 
+// The picture of a preset; NULL: there is none that is as new as the preset.
+static char *picture_of(const char *name) {
+    char *document = studio_preset_file(name, ".frond"), *file = studio_preset_file(name, ".png");
+    GStatBuf changed, drawn;
+    if (file != NULL && document != NULL && g_stat(document, &changed) == 0 &&
+        g_stat(file, &drawn) == 0 && drawn.st_mtime < changed.st_mtime) {
+        g_clear_pointer(&file, g_free);
+    }
+    g_free(document);
+    return file;
+}
+
 static void fill_own(StudioPresetCards *cards) {
     GtkWidget *child;
     while ((child = gtk_widget_get_first_child(cards->own)) != NULL) {
@@ -142,13 +186,12 @@ static void fill_own(StudioPresetCards *cards) {
     GPtrArray *names = studio_own_presets();
     for (guint i = 0; i < names->len; i++) {
         const char *name = g_ptr_array_index(names, i);
-        char *file = studio_preset_file(name, ".png");
+        char *file = picture_of(name);
         if (file == NULL) {
             draw(cards, name);
-        } else {
-            g_hash_table_remove(cards->drawn, name); // another plant may be called so later
         }
-        gtk_flow_box_append(GTK_FLOW_BOX(cards->own), make_card(name, true, file));
+        gtk_flow_box_append(GTK_FLOW_BOX(cards->own),
+                            make_card(name, true, file, g_hash_table_lookup(cards->broken, name)));
         g_free(file);
     }
     gtk_widget_set_visible(cards->own_heading, names->len > 0);
@@ -166,16 +209,22 @@ static gboolean on_later(gpointer data) {
 static void on_files(GFileMonitor *monitor, GFile *file, GFile *other, GFileMonitorEvent event,
                      StudioPresetCards *cards) {
     (void)monitor;
-    (void)file;
     (void)other;
     (void)event;
+    char *name = g_file_get_basename(file);
+    if (g_str_has_suffix(name, ".frond")) { // another one now, to be looked at again
+        name[strlen(name) - strlen(".frond")] = '\0';
+        g_hash_table_remove(cards->drawn, name);
+        g_hash_table_remove(cards->broken, name);
+    }
+    g_free(name);
     if (cards->later == 0) {
         cards->later = g_timeout_add(LATER_MILLISECONDS, on_later, cards);
     }
 }
 
 static void watch_own(StudioPresetCards *cards) {
-    char *folder = studio_presets_folder();
+    char *folder = fr_presets_folder();
     g_mkdir_with_parents(folder, 0777); // else it could not be watched
     GFile *file = g_file_new_for_path(folder);
     cards->monitor = g_file_monitor_directory(file, G_FILE_MONITOR_NONE, NULL, NULL);
@@ -196,7 +245,7 @@ static void add_shipped(StudioPresetCards *cards) {
         const char *name = g_ptr_array_index(names, i);
         char *relative = g_strconcat("presets/", name, ".png", NULL);
         char *file = studio_data_file(relative);
-        gtk_flow_box_append(GTK_FLOW_BOX(flow), make_card(name, false, file));
+        gtk_flow_box_append(GTK_FLOW_BOX(flow), make_card(name, false, file, NULL));
         g_free(file);
         g_free(relative);
     }
@@ -217,6 +266,7 @@ static void studio_preset_cards_dispose(GObject *object) {
     }
     g_clear_object(&cards->monitor);
     g_clear_pointer(&cards->drawn, g_hash_table_unref);
+    g_clear_pointer(&cards->broken, g_hash_table_unref);
     G_OBJECT_CLASS(studio_preset_cards_parent_class)->dispose(object);
 }
 
@@ -230,6 +280,7 @@ static void studio_preset_cards_init(StudioPresetCards *cards) {
     gtk_orientable_set_orientation(GTK_ORIENTABLE(cards), GTK_ORIENTATION_VERTICAL);
     gtk_box_set_spacing(GTK_BOX(cards), 12);
     cards->drawn = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+    cards->broken = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
     cards->own_heading = make_heading("Yours");
     cards->own = make_flow(cards);
     gtk_box_append(GTK_BOX(cards), cards->own_heading);

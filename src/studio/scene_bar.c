@@ -1,6 +1,7 @@
 /// The palette of the scene's tools, and what can be set of the one that is chosen.
 #include "studio/accessible.h"
 #include "studio/model/adopt.h"
+#include "studio/model/presets.h"
 #include "studio/scene_tool_private.h"
 #include "studio/wrap_box.h"
 
@@ -87,16 +88,21 @@ char *studio_scene_chosen_plant(StudioSceneTool *tool, const char *key) {
         return g_strdup(name);
     }
     char *file = studio_preset_file(name + strlen(preset_mark), ".frond"), *id = NULL;
+    char *problem = file == NULL ? NULL : studio_presets_problem(file);
     FrStatus status;
     FrSource *source =
         file == NULL
             ? NULL
             : fr_source_load(file, fr_context_default().limits.document_bytes, NULL, &status);
-    if (source != NULL && studio_adopt(tool->window->document, source, NULL, key, &id)) {
+    if (problem != NULL) {
+        studio_window_say(tool->window, "The preset %s is not planted: %s",
+                          name + strlen(preset_mark), problem);
+    } else if (source != NULL && studio_adopt(tool->window->document, source, NULL, key, &id)) {
         list_again(tool);
         choose_plant(tool, id);
     }
     fr_source_unref(source);
+    g_free(problem);
     g_free(file);
     return id;
 }

@@ -1,5 +1,6 @@
 /// Presets of the user: a part of a plant is kept as one, called otherwise, removed; and any preset
 /// is put into the graph of a plant.
+#include "frond/presets.h"
 #include "studio/accessible.h"
 #include "studio/model/presets.h"
 #include "studio/model/subgraph.h"
@@ -98,7 +99,7 @@ static void show_asked(Asked *asked, const char *name, GCallback answered) {
 // ---- keeping a part ----------------------------------------------------------------------------
 
 static void keep(StudioWindow *window, const char *id, const char *name) {
-    char *refusal, *folder = studio_presets_folder();
+    char *refusal, *folder = fr_presets_folder();
     char *text =
         studio_subgraph_text(window->document, studio_window_plant(window), id, name, &refusal);
     FrDiags *diags = fr_diags_new();
@@ -151,7 +152,7 @@ static void do_save_as(GSimpleAction *action, GVariant *parameter, gpointer data
 static void on_rename(AdwMessageDialog *dialog, const char *response, Asked *asked) {
     (void)dialog;
     const char *to = gtk_editable_get_text(asked->entry);
-    char *folder = studio_presets_folder();
+    char *folder = fr_presets_folder();
     if (strcmp(response, "do") == 0 && !studio_presets_rename(folder, asked->what, to)) {
         studio_window_say(asked->window, "%s cannot be renamed", asked->what);
     }
@@ -167,7 +168,7 @@ static void do_rename(GSimpleAction *action, GVariant *parameter, gpointer data)
 
 static void on_remove(AdwMessageDialog *dialog, const char *response, StudioWindow *window) {
     const char *name = g_object_get_data(G_OBJECT(dialog), key_what);
-    char *folder = studio_presets_folder();
+    char *folder = fr_presets_folder();
     if (strcmp(response, "remove") == 0 && !studio_presets_remove(folder, name)) {
         studio_window_say(window, "%s cannot be removed", name);
     }
@@ -210,7 +211,10 @@ static void insert(StudioWindow *window, const char *name, const char *on) {
         file == NULL
             ? NULL
             : fr_source_load(file, fr_context_default().limits.document_bytes, NULL, &status);
-    const char *refusal = source == NULL ? "It cannot be read" : studio_subgraph_refusal(source);
+    char *problem = file == NULL ? NULL : studio_presets_problem(file);
+    const char *refusal = problem != NULL  ? problem
+                          : source == NULL ? "It cannot be read"
+                                           : studio_subgraph_refusal(source);
     if (refusal != NULL) {
         studio_window_say(window, "The preset %s is not put in: %s", name, refusal);
     } else if (studio_insert_subgraph(window->document, studio_window_plant(window), source,
@@ -218,6 +222,7 @@ static void insert(StudioWindow *window, const char *name, const char *on) {
         studio_window_select_component(window, id);
     }
     fr_source_unref(source);
+    g_free(problem);
     g_free(id);
     g_free(file);
 }

@@ -291,12 +291,23 @@ static void test_new(void) {
     g_mkdir_with_parents("frond/presets", 0777);
     g_assert_true(
         g_file_set_contents("frond/presets/my twig.frond", "<frond version='1'/>\n", -1, NULL));
+    g_assert_true(g_file_set_contents("frond/presets/torn.frond",
+                                      "<frond version='1'>\n  <plant id='p' sede='1'/>\n</frond>\n",
+                                      -1, NULL));
     static const Command rows[] = {
-        {"presets", 0, "oak              An oak\nmy twig          your own\n", ""},
+        {"presets", 0,
+         "oak              An oak\nmy twig          your own\n"
+         "torn             not right: it cannot be used\n",
+         "*/frond/presets/torn.frond:2:* error: *"},
         {"presets --json", 0,
          "[*\"name\": \"oak\"*\"title\": \"An oak\"*\"own\": false*\"name\": \"my twig\"*"
-         "\"own\": true*]\n",
-         ""},
+         "\"own\": true*\"broken\": false*\"broken\": true*]\n",
+         "*torn.frond:2:*"},
+        {"new torn --preset torn", 1, "",
+         "*/frond/presets/torn.frond:2:* error: *frond: the preset 'torn' is not right: no "
+         "document "
+         "is begun with it\n"},
+        {"check torn.frond", 1, "", "error: cannot read 'torn.frond'*"},
         {"new twig --preset 'my twig'", 0, "twig.frond\n", ""},
         {"new other --preset 'my twg'", 2, "",
          "frond: there is no preset*did you mean 'my twig'?\n"},
@@ -327,6 +338,7 @@ static void test_new(void) {
     expect(&did, &(Command){"build young.frond", 0, "", ""});
     g_remove("presets/oak.frond");
     g_remove("frond/presets/my twig.frond");
+    g_remove("frond/presets/torn.frond");
     g_remove("frond/presets");
     leave_folder(folder, previous);
 }

@@ -1,6 +1,7 @@
 #include "studio/model/presets.h"
 
 #include "frond/document.h"
+#include "frond/presets.h"
 #include "studio.h"
 #include "studio/model/subgraph.h"
 
@@ -210,19 +211,19 @@ static void remove_folder(char *folder) {
 
 static void test_keep(void) {
     char *folder = new_folder();
-    GPtrArray *none = studio_presets_list(folder);
+    GPtrArray *none = fr_presets_list(folder);
     g_assert_cmpuint(none->len, ==, 0);
     g_ptr_array_unref(none);
     g_assert_cmpint(studio_presets_save(folder, "red twig", CUT, NULL), ==, FR_OK);
     g_assert_cmpint(studio_presets_save(folder, "bush", BUSH, NULL), ==, FR_OK);
-    GPtrArray *two = studio_presets_list(folder);
+    GPtrArray *two = fr_presets_list(folder);
     g_assert_cmpuint(two->len, ==, 2);
     g_assert_cmpstr(g_ptr_array_index(two, 0), ==, "bush");
     g_ptr_array_unref(two);
     g_assert_false(studio_presets_rename(folder, "red twig", "bush"));
     g_assert_false(studio_presets_rename(folder, "elm", "ash"));
     g_assert_true(studio_presets_rename(folder, "red twig", "blue twig"));
-    char *file = studio_presets_file(folder, "blue twig", ".frond"), *text;
+    char *file = fr_presets_file(folder, "blue twig", ".frond"), *text;
     g_assert_true(g_file_get_contents(file, &text, NULL, NULL));
     g_assert_cmpstr(text, ==, CUT);
     g_free(text);
@@ -261,7 +262,7 @@ static void test_draw(void) {
     FrContext context = fr_context_default();
     g_assert_cmpint(studio_presets_save(folder, "twig", CUT, NULL), ==, FR_OK);
     g_assert_cmpint(studio_presets_draw(folder, "twig", &context), ==, FR_OK);
-    char *file = studio_presets_file(folder, "twig", ".png"), *bytes;
+    char *file = fr_presets_file(folder, "twig", ".png"), *bytes;
     gsize size;
     g_assert_true(g_file_get_contents(file, &bytes, &size, NULL));
     g_assert_cmpint(memcmp(bytes, "\x89PNG", 4), ==, 0);
@@ -269,6 +270,23 @@ static void test_draw(void) {
     g_assert_cmpint(studio_presets_save(folder, "twig", BUSH, NULL), ==, FR_OK);
     g_assert_false(g_file_test(file, G_FILE_TEST_EXISTS)); // it shows another plant
     g_assert_true(studio_presets_remove(folder, "twig"));
+    g_free(file);
+    remove_folder(folder);
+}
+
+static void test_problem(void) {
+    char *folder = new_folder(), *file = fr_presets_file(folder, "twig", ".frond");
+    g_assert_cmpint(studio_presets_save(folder, "twig", CUT, NULL), ==, FR_OK);
+    g_assert_null(studio_presets_problem(file));
+    g_assert_true(
+        g_file_set_contents(file, "<frond version='1'>\n  <plan id='p'/>\n</frond>\n", -1, NULL));
+    char *problem = studio_presets_problem(file);
+    g_assert_true(g_str_has_prefix(problem, "line 2: "));
+    g_free(problem);
+    g_unlink(file);
+    problem = studio_presets_problem(file);
+    g_assert_nonnull(problem);
+    g_free(problem);
     g_free(file);
     remove_folder(folder);
 }
@@ -284,6 +302,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/presets/what has no components is not inserted", test_refused);
     g_test_add_func("/studio/presets/presets are kept, renamed and removed", test_keep);
     g_test_add_func("/studio/presets/what is wrong is not kept", test_keep_wrong);
+    g_test_add_func("/studio/presets/what has become wrong is told with its line", test_problem);
     g_test_add_func("/studio/presets/names are those of files", test_names);
     g_test_add_func("/studio/presets/a preset is drawn", test_draw);
     return g_test_run();

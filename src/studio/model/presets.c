@@ -1,6 +1,7 @@
 #include "studio/model/presets.h"
 
 #include "frond/document.h"
+#include "frond/presets.h"
 #include "frond/render.h"
 
 #include <glib/gstdio.h>
@@ -10,32 +11,6 @@ static const char ending[] = ".frond";
 static const char picture[] = ".png";
 
 enum { PICTURE_WIDTH = 240, PICTURE_HEIGHT = 300, PICTURE_SAMPLES = 8, LONGEST_NAME = 80 };
-
-char *studio_presets_folder(void) {
-    return g_build_filename(g_get_user_data_dir(), "frond", "presets", NULL);
-}
-
-static int compare_names(const void *a, const void *b) {
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-GPtrArray *studio_presets_list(const char *folder) {
-    GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
-    GDir *directory = folder == NULL ? NULL : g_dir_open(folder, 0, NULL);
-    const char *name;
-    while (directory != NULL && (name = g_dir_read_name(directory)) != NULL) {
-        if (g_str_has_suffix(name, ending)) {
-            g_ptr_array_add(names, g_strndup(name, strlen(name) - strlen(ending)));
-        }
-    }
-    g_clear_pointer(&directory, g_dir_close);
-    g_ptr_array_sort(names, compare_names);
-    return names;
-}
-
-char *studio_presets_file(const char *folder, const char *name, const char *file_ending) {
-    return g_strdup_printf("%s/%s%s", folder, name, file_ending);
-}
 
 const char *studio_presets_name_refusal(const char *name) {
     if (*name == '\0') {
@@ -54,6 +29,28 @@ const char *studio_presets_name_refusal(const char *name) {
     return is_odd ? "A name begins with a letter or digit" : NULL;
 }
 
+char *studio_presets_problem(const char *file) {
+    FrContext context = fr_context_default();
+    context.diags = fr_diags_new();
+    FrDocument *document;
+    char *problem = NULL;
+    if (fr_document_load(file, &context, &document) != FR_OK) {
+        for (size_t i = 0; i < fr_diags_count(context.diags) && problem == NULL; i++) {
+            const FrDiag *diag = fr_diags_get(context.diags, i);
+            uint32_t line, column;
+            if (diag->severity == FR_ERROR && diag->span.source != NULL) {
+                fr_source_position(diag->span.source, diag->span.begin, &line, &column);
+                problem = g_strdup_printf("line %u: %s", line, diag->text);
+            } else if (diag->severity == FR_ERROR) {
+                problem = g_strdup(diag->text);
+            }
+        }
+    }
+    fr_document_free(document);
+    fr_diags_free(context.diags);
+    return problem;
+}
+
 FrStatus studio_presets_save(const char *folder, const char *name, const char *text,
                              FrDiags *diags) {
     FrContext context = fr_context_default();
@@ -65,8 +62,8 @@ FrStatus studio_presets_save(const char *folder, const char *name, const char *t
     fr_source_unref(source);
     if (status == FR_OK) {
         g_mkdir_with_parents(folder, 0777);
-        char *file = studio_presets_file(folder, name, ending);
-        char *old = studio_presets_file(folder, name, picture);
+        char *file = fr_presets_file(folder, name, ending);
+        char *old = fr_presets_file(folder, name, picture);
         status = fr_contents_save(text, strlen(text), file, diags);
         if (status == FR_OK) {
             g_unlink(old); // it shows what was called so before
@@ -78,7 +75,7 @@ FrStatus studio_presets_save(const char *folder, const char *name, const char *t
 }
 
 static bool is_there(const char *folder, const char *name) {
-    char *file = studio_presets_file(folder, name, ending);
+    char *file = fr_presets_file(folder, name, ending);
     bool is_it = g_file_test(file, G_FILE_TEST_EXISTS);
     g_free(file);
     return is_it;
@@ -91,8 +88,8 @@ bool studio_presets_rename(const char *folder, const char *name, const char *to)
     static const char *const endings[] = {picture, ending}; // the picture has no place of its own
     bool is_renamed = is_there(folder, name);
     for (int i = 0; is_renamed && i < 2; i++) {
-        char *from = studio_presets_file(folder, name, endings[i]);
-        char *into = studio_presets_file(folder, to, endings[i]);
+        char *from = fr_presets_file(folder, name, endings[i]);
+        char *into = fr_presets_file(folder, to, endings[i]);
         is_renamed = g_rename(from, into) == 0 || endings[i] == picture;
         g_free(into);
         g_free(from);
@@ -101,8 +98,8 @@ bool studio_presets_rename(const char *folder, const char *name, const char *to)
 }
 
 bool studio_presets_remove(const char *folder, const char *name) {
-    char *file = studio_presets_file(folder, name, ending);
-    char *drawn = studio_presets_file(folder, name, picture);
+    char *file = fr_presets_file(folder, name, ending);
+    char *drawn = fr_presets_file(folder, name, picture);
     bool is_removed = g_unlink(file) == 0;
     if (is_removed) {
         g_unlink(drawn);
@@ -127,8 +124,8 @@ static FrStatus draw(const FrScene *scene, const FrContext *context, FrImage **i
 }
 
 FrStatus studio_presets_draw(const char *folder, const char *name, const FrContext *context) {
-    char *file = studio_presets_file(folder, name, ending);
-    char *drawn = studio_presets_file(folder, name, picture);
+    char *file = fr_presets_file(folder, name, ending);
+    char *drawn = fr_presets_file(folder, name, picture);
     FrDocument *document;
     FrScene *scene = NULL;
     FrImage *image = NULL;

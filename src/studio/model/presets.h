@@ -4,16 +4,11 @@
 
 #include "studio/model/document.h"
 
-/// Where they are unless a test says otherwise: frond/presets within the user's data. Free with
-/// g_free().
-char *studio_presets_folder(void);
-/// Names of the presets in a folder, sorted, without folder and ending; none if it is not there.
-/// Free with g_ptr_array_unref().
-GPtrArray *studio_presets_list(const char *folder);
-/// The file of a preset with that ending: ".frond", ".png". Free with g_free().
-char *studio_presets_file(const char *folder, const char *name, const char *ending);
 /// Why nothing can be called so, in a sentence; NULL: it can.
 const char *studio_presets_name_refusal(const char *name);
+
+/// What is wrong with a preset, by its file: "line 3: text". Free with g_free(); NULL: nothing is.
+char *studio_presets_problem(const char *file);
 
 /// Keeps a text as a preset, in the place of one that is called so. The file is whole at any time.
 /// FR_ERR_DOCUMENT if it is no document without errors: then nothing is written.
