@@ -123,9 +123,10 @@ FR_API void fr_growth_free(FrGrowth *growth);
 /// stays as it was.
 FR_API FR_MUST_USE FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup,
                                              const FrContext *context);
-/// Adds plants of one bud each. A seed outside the arena or inside an obstacle is left out with a
-/// warning; the plants keep the numbers of their seeds. Another warning tells of seeds from which
-/// no trunk comes to its envelope.
+/// Adds plants of one bud each. A seed outside the arena or inside an obstacle waits, with a
+/// warning, and begins with the first step after a change that makes its place free; the plants
+/// keep the numbers of their seeds. Another warning tells of seeds from which no trunk comes to its
+/// envelope.
 FR_API FR_MUST_USE FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds,
                                                 uint32_t count, const FrContext *context);
 FR_API FR_MUST_USE FrStatus fr_growth_add_particles(FrGrowth *growth, const FrParticle *particles,

@@ -90,7 +90,8 @@ static void add_site(const FrGrowth *growth, FrColony *colony, uint32_t p, uint3
 }
 
 static bool is_colonizer(const FrGrowth *growth, const FrGrownPlant *plant) {
-    return !plant->is_left_out && fr_species_of(growth, plant)->params.fate == FR_FATE_COLONIZE;
+    return plant->place == FR_PLACE_FREE &&
+           fr_species_of(growth, plant)->params.fate == FR_FATE_COLONIZE;
 }
 
 /// Plants in the order of their keys, which is not that of their seeds.

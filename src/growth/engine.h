@@ -76,6 +76,13 @@ typedef struct FrGrownNodes {
     float *wood;    ///< r^e of branches that have fallen off here, in tips
 } FrGrownNodes;
 
+/// Whether a plant has a place to stand.
+typedef enum FrPlace {
+    FR_PLACE_FREE, ///< it grows, or has grown
+    FR_PLACE_NONE, ///< its seed waits until the place is free
+    FR_PLACE_LOST, ///< the same, but it has begun once: its particles are there
+} FrPlace;
+
 typedef struct FrGrownPlant {
     FrSeed seed;
     FrKey key;
@@ -86,7 +93,7 @@ typedef struct FrGrownPlant {
     uint32_t bud_count, bud_capacity;
     uint8_t is_drawn;                           ///< colonize: particles have drawn it
     uint8_t max_order;                          ///< of its axes
-    bool is_left_out;                           ///< its seed has no place to stand
+    uint8_t place;                              ///< FrPlace
     uint8_t is_dead;                            ///< has starved
     uint16_t starving;                          ///< steps in a row
     uint32_t live_count, growing_count;         ///< gathered buds
@@ -180,6 +187,8 @@ struct FrGrowth {
     uint64_t step;
     double seconds, light_seconds; ///< of the last step
     GPtrArray *history;            ///< GBytes of states before steps, the last one last
+    uint32_t older_states;         ///< how many of them are older than the last change of the world
+    bool is_world_new;             ///< the next step looks whether places of seeds are free
 };
 
 static inline const FrReadySpecies *fr_species_of(const FrGrowth *growth,
@@ -282,6 +291,14 @@ bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, const double origin[3],
 /// Tells which seeds of a world that is yet to be made stand wrong.
 void fr_seeds_check(const FrGrowthSetup *setup, double width, vec3s up, const FrSeed *seeds,
                     uint32_t count, const FrContext *context);
+
+// ---- sow.c ------------------------------------------------------------------------------------
+FrStatus fr_growth_limit_plants(uint64_t count, const FrContext *context);
+/// True if the world is new to a seed that has not sprouted.
+bool fr_growth_has_waiting(const FrGrowth *growth);
+/// Begins plants whose place has become free, and lets seeds wait whose place is taken. After a
+/// failure the state is to be restored.
+FR_MUST_USE FrStatus fr_growth_sow_waiting(FrGrowth *growth, const FrContext *context);
 
 // ---- plant_store.c ----------------------------------------------------------------------------
 uint32_t fr_grown_add_node(FrGrownPlant *plant, uint32_t parent, uint32_t axis, vec3s at);

@@ -1,4 +1,4 @@
-// The world of a growth: made, seeded, changed, counted.
+// The world of a growth: made, changed, counted.
 #include "growth/propose.h"
 
 #include <cglm/struct.h>
@@ -245,6 +245,9 @@ FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup, const Fr
         unlimited.limits.bytes = UINT64_MAX;
         FrStatus again = fr_growth_stand_obstacles(growth, &unlimited);
         FR_ASSERT(again == FR_OK);
+    } else {
+        growth->is_world_new = true;
+        growth->older_states = growth->history->len;
     }
     drop_species(&old);
     drop_obstacles(&old);
@@ -255,104 +258,15 @@ vec3s fr_bud_world(const FrGrownPlant *plant, const FrLiveBud *bud) {
     return fr_grown_tip(plant, bud->node);
 }
 
-/// The one bud that a plant begins with.
-static void begin_plant(FrGrowth *growth, FrGrownPlant *plant) {
-    plant->key = fr_key_child(fr_key_root((uint64_t)growth->params.seed), plant->seed.id);
-    uint32_t axis = fr_grown_add_axis(plant, FR_NONE, 0, plant->key);
-    FrLiveBud *bud = fr_grown_add_bud(plant);
-    bud->key = plant->key;
-    bud->node = FR_NONE;
-    bud->axis = axis;
-    bud->direction = growth->up;
-    versors frame = fr_frame_from_heading(growth->up, (vec3s){{0, 1, 0}});
-    float around = (float)(2 * G_PI * fr_random(plant->key, FR_CHANCE_BIRTH, 0));
-    bud->side = glms_vec3_add(glms_vec3_scale(fr_frame_left(frame), cosf(around)),
-                              glms_vec3_scale(fr_frame_up(frame), sinf(around)));
-    bud->light = 1;
-    bud->state = FR_LIVE_GROWING;
-}
-
-/// Which seeds have no place among the obstacles that stand. The caller frees it.
-static bool *find_left_out(const FrGrowth *growth, const FrSeed *seeds, uint32_t count) {
-    const FrGrowthSetup setup = {.params = growth->params,
-                                 .obstacles = growth->obstacles,
-                                 .obstacle_count = growth->obstacle_count};
-    return fr_seeds_find_left_out(&setup, growth->voxels->origin, growth->voxels->cell, growth->up,
-                                  seeds, count);
-}
-
-static FrStatus check_plants(uint64_t count, const FrContext *context) {
-    return fr_limit_check(count, context->limits.plants, "plants", "the growth", (FrSpan){0},
-                          context->diags);
-}
-
 FrStatus fr_growth_check(const FrGrowthSetup *setup, const FrSeed *seeds, uint32_t count,
                          const FrContext *context) {
     FrStatus status = check_setup(setup, cell_of(setup), context);
     if (status == FR_OK) {
-        status = check_plants(count, context);
+        status = fr_growth_limit_plants(count, context);
     }
     if (status == FR_OK) {
         tell_wide_cells(setup, cell_of(setup), context);
         fr_seeds_check(setup, cell_of(setup), up_of(&setup->params), seeds, count, context);
-    }
-    return status;
-}
-
-/// Only the first plants stay.
-static void keep_plants(FrGrowth *growth, uint32_t count) {
-    for (uint32_t i = count; i < growth->plant_count; i++) {
-        fr_grown_clear(&growth->plants[i]);
-    }
-    growth->plant_count = count;
-}
-
-FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t count,
-                             const FrContext *context) {
-    FrStatus status = check_plants(fr_count_add(growth->plant_count, count), context);
-    if (status != FR_OK || count == 0) {
-        return status;
-    }
-    fr_colony_free(growth->colony); // made anew with the new seeds
-    growth->colony = NULL;
-    uint32_t first = growth->plant_count;
-    growth->plants = g_renew(FrGrownPlant, growth->plants, first + count);
-    memset(growth->plants + first, 0, count * sizeof *growth->plants);
-    growth->plant_count += count;
-    FrMisplaced left_out = {0}, outside = {0};
-    bool *is_left_out = find_left_out(growth, seeds, count);
-    bool *come_within =
-        fr_species_come_within(&growth->params, growth->species, growth->species_count, growth->up);
-    GArray *particles = g_array_new(FALSE, FALSE, sizeof(FrParticle));
-    for (uint32_t i = 0; i < count && status == FR_OK; i++) {
-        FrGrownPlant *plant = &growth->plants[first + i];
-        FR_ASSERT(seeds[i].species < growth->species_count);
-        plant->seed = seeds[i];
-        plant->seed.span = (FrSpan){0};
-        plant->is_left_out = is_left_out[i];
-        if (plant->is_left_out) {
-            fr_misplaced_note(&left_out, &seeds[i]);
-            continue;
-        }
-        if (!come_within[seeds[i].species]) {
-            fr_misplaced_note(&outside, &seeds[i]);
-        }
-        begin_plant(growth, plant);
-        status = fr_growth_fill_envelope(growth, plant, particles, context);
-    }
-    if (status == FR_OK) {
-        status = fr_growth_add_particles(growth, (const FrParticle *)(void *)particles->data,
-                                         particles->len, context);
-    }
-    g_array_free(particles, TRUE);
-    g_free(is_left_out);
-    g_free(come_within);
-    if (status != FR_OK) {
-        keep_plants(growth, first);
-    } else {
-        fr_misplaced_tell_left_out(&left_out, count, left_out.count == growth->plant_count,
-                                   context);
-        fr_misplaced_tell_outside(&outside, count, context);
     }
     return status;
 }
@@ -366,7 +280,7 @@ void fr_growth_reserve_owners(FrGrowth *growth, uint32_t count) {
 
 static void count_plant(const FrGrowth *growth, const FrGrownPlant *plant, FrGrowthStats *stats) {
     const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
-    stats->plants += !plant->is_left_out;
+    stats->plants += plant->place == FR_PLACE_FREE;
     for (uint32_t i = 0; i < plant->axis_count; i++) {
         stats->axes += plant->axes[i].first != FR_NONE;
     }

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#define MAGIC "FrGrown2"
+#define MAGIC "FrGrown3"
 
 // ---- writing ----------------------------------------------------------------------------------
 
@@ -24,7 +24,7 @@ static void put_plant(GByteArray *out, const FrGrownPlant *plant) {
     put(out, plant->seed.at, sizeof plant->seed.at);
     put_count(out, plant->seed.id);
     put_count(out, plant->seed.species);
-    put_count(out, plant->is_left_out);
+    put_count(out, plant->place);
     put_count(out, plant->max_order);
     put_count(out, plant->is_drawn);
     put_count(out, plant->is_dead);
@@ -66,6 +66,7 @@ GBytes *fr_growth_save(const FrGrowth *growth) {
     GByteArray *out = g_byte_array_new();
     put(out, MAGIC, 8);
     put_count(out, growth->step);
+    put_count(out, growth->is_world_new);
     put_count(out, growth->owner_count);
     put_count(out, growth->plant_count);
     for (uint32_t i = 0; i < growth->plant_count; i++) {
@@ -168,23 +169,24 @@ static bool buds_are_right(const FrGrowth *growth, const FrGrownPlant *plant) {
 }
 
 static bool take_plant(FrBytesReader *reader, const FrGrowth *growth, FrGrownPlant *plant) {
-    uint64_t species, is_left_out, max_order, is_drawn, is_dead, starving, nodes, axes, buds;
+    uint64_t species, place, max_order, is_drawn, is_dead, starving, nodes, axes, buds;
     if (!fr_bytes_take(reader, plant->seed.at, sizeof plant->seed.at) ||
         !fr_bytes_take(reader, &plant->seed.id, sizeof plant->seed.id) ||
         growth->species_count == 0 ||
         !fr_bytes_take_count(reader, growth->species_count - 1, &species) ||
-        !fr_bytes_take_count(reader, 1, &is_left_out) ||
+        !fr_bytes_take_count(reader, FR_PLACE_LOST, &place) ||
         !fr_bytes_take_count(reader, 255, &max_order) ||
         !fr_bytes_take_count(reader, 1, &is_drawn) || !fr_bytes_take_count(reader, 1, &is_dead) ||
         !fr_bytes_take_count(reader, UINT16_MAX, &starving) ||
         !fr_bytes_take_count(reader, reader->left, &nodes) ||
         !fr_bytes_take_count(reader, reader->left, &axes) ||
         !fr_bytes_take_count(reader, reader->left, &buds) ||
-        nodes + axes + buds > reader->left / 4) {
+        nodes + axes + buds > reader->left / 4 ||
+        (place != FR_PLACE_FREE && nodes + axes + buds > 0)) {
         return false;
     }
     plant->seed.species = (uint32_t)species;
-    plant->is_left_out = (uint8_t)is_left_out;
+    plant->place = (uint8_t)place;
     plant->max_order = (uint8_t)max_order;
     plant->is_drawn = (uint8_t)is_drawn;
     plant->is_dead = (uint8_t)is_dead;
@@ -262,13 +264,15 @@ static bool take_cells(FrBytesReader *reader, FrGrowth *growth) {
 
 static bool take_growth(FrBytesReader *reader, FrGrowth *growth, const FrLimits *limits) {
     char magic[8];
-    uint64_t owners, plants;
+    uint64_t is_world_new, owners, plants;
     if (!fr_bytes_take(reader, magic, 8) || memcmp(magic, MAGIC, 8) != 0 ||
         !fr_bytes_take_count(reader, UINT32_MAX, &growth->step) ||
+        !fr_bytes_take_count(reader, 1, &is_world_new) ||
         !fr_bytes_take_count(reader, INT32_MAX, &owners) || owners > reader->left ||
         !fr_bytes_take_count(reader, limits->plants, &plants)) {
         return false;
     }
+    growth->is_world_new = is_world_new != 0;
     growth->owner_count = (uint32_t)owners;
     growth->plants = g_new0(FrGrownPlant, plants);
     for (; growth->plant_count < plants; growth->plant_count++) {
@@ -290,6 +294,7 @@ static void exchange(FrGrowth *growth, FrGrowth *read) {
     growth->owner_count = read->owner_count;
     growth->owner_capacity = read->owner_capacity;
     growth->step = read->step;
+    growth->is_world_new = read->is_world_new;
     FrVoxels *voxels = read->voxels;
     read->plants = old.plants;
     read->plant_count = old.plant_count;

@@ -5,7 +5,7 @@ GArray *fr_growth_buds(const FrGrowth *growth) {
     GArray *buds = g_array_new(FALSE, FALSE, sizeof(FrGrowthBud));
     for (uint32_t p = 0; p < growth->plant_count; p++) {
         const FrGrownPlant *plant = &growth->plants[p];
-        for (uint32_t i = 0; i < plant->bud_count && !plant->is_left_out; i++) {
+        for (uint32_t i = 0; i < plant->bud_count; i++) {
             const FrLiveBud *bud = &plant->buds[i];
             FrGrowthBud seen = {.at = fr_bud_world(plant, bud),
                                 .direction = bud->direction,

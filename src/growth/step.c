@@ -111,20 +111,29 @@ static void remember(FrGrowth *growth, GBytes *before) {
     }
     if (growth->history->len > growth->params.history) {
         g_ptr_array_remove_index(growth->history, 0);
+        growth->older_states -= growth->older_states > 0;
     }
+}
+
+/// Takes up a state of its own, and releases it.
+static void return_to(FrGrowth *growth, GBytes *state) {
+    gsize size;
+    const void *data = g_bytes_get_data(state, &size);
+    FrContext context = fr_context_default();
+    FrStatus status = fr_growth_restore(growth, data, size, (FrSpan){0}, &context);
+    FR_ASSERT(status == FR_OK);
+    g_bytes_unref(state);
 }
 
 bool fr_growth_undo(FrGrowth *growth) {
     if (growth->history->len == 0) {
         return false;
     }
-    GBytes *bytes = g_ptr_array_steal_index(growth->history, growth->history->len - 1);
-    gsize size;
-    const void *data = g_bytes_get_data(bytes, &size);
-    FrContext context = fr_context_default();
-    FrStatus status = fr_growth_restore(growth, data, size, (FrSpan){0}, &context);
-    FR_ASSERT(status == FR_OK);
-    g_bytes_unref(bytes);
+    return_to(growth, g_ptr_array_steal_index(growth->history, growth->history->len - 1));
+    if (growth->history->len < growth->older_states) {
+        growth->older_states = growth->history->len;
+        growth->is_world_new = true;
+    }
     return true;
 }
 
@@ -161,11 +170,20 @@ FrStatus fr_growth_step(FrGrowth *growth, const FrContext *context) {
     }
     gint64 begin = g_get_monotonic_time();
     room_for_workers(growth, context);
-    GBytes *before = growth->params.history > 0 ? fr_growth_save(growth) : NULL;
+    bool sows = fr_growth_has_waiting(growth);
+    GBytes *before = sows || growth->params.history > 0 ? fr_growth_save(growth) : NULL;
     growth->step++;
-    status = fr_growth_sense(growth, context);
+    if (sows) {
+        status = fr_growth_sow_waiting(growth, context);
+    }
+    if (status == FR_OK) {
+        status = fr_growth_sense(growth, context);
+    }
     if (status != FR_OK) {
         growth->step--;
+        if (sows) {
+            return_to(growth, g_steal_pointer(&before));
+        }
         g_clear_pointer(&before, g_bytes_unref);
         return status;
     }

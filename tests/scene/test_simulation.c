@@ -118,6 +118,39 @@ static void test_change_refused(void) {
     fr_document_free(fewer);
 }
 
+/// A seed comes in when the document's obstacle has gone, and undoing and saving agree.
+static void test_freed(void) {
+    Run run = begin(SCENE("", "<place plant='a'/><place plant='b' at='2,0,0'/>"
+                              "<obstacle at='2,0,0' size='1,1,1'/>"),
+                    9);
+    step(&run, 2);
+    FrDigest before = digest(&run);
+    FrDocument *freed =
+        parse(SCENE("", "<place plant='a'/><place plant='b' at='2,0,0'/>"), &run.context);
+    g_assert_cmpint(fr_simulation_change(run.simulation, freed, &run.context), ==, FR_OK);
+    g_assert_cmpuint(plant_of(&run, 1)->nodes.count, ==, 0);
+    GBytes *saved = fr_simulation_save(run.simulation, &run.context);
+    step(&run, 2);
+    g_assert_cmpuint(plant_of(&run, 1)->nodes.count, >=, 2);
+    FrDigest after = digest(&run);
+    g_assert_true(fr_simulation_undo(run.simulation) && fr_simulation_undo(run.simulation));
+    g_assert_cmpuint(digest(&run), ==, before);
+    step(&run, 2);
+    g_assert_cmpuint(digest(&run), ==, after);
+    Run other = begin(SCENE("", "<place plant='a'/><place plant='b' at='2,0,0'/>"), 0);
+    gsize size;
+    const void *data = g_bytes_get_data(saved, &size);
+    g_assert_cmpint(
+        fr_simulation_restore(other.simulation, data, size, (FrSpan){0}, &other.context), ==,
+        FR_OK);
+    step(&other, 2);
+    g_assert_cmpuint(digest(&other), ==, after);
+    g_bytes_unref(saved);
+    end(&other);
+    end(&run);
+    fr_document_free(freed);
+}
+
 static void test_undo(void) {
     Run run = begin(SCENE("", "<place plant='a'/><place plant='b' at='1,0,0'/>"), 3);
     FrDigest digests[8];
@@ -358,6 +391,7 @@ int main(int argc, char **argv) {
                     test_change);
     g_test_add_func("/scene/simulation/a change of the number of species is refused",
                     test_change_refused);
+    g_test_add_func("/scene/simulation/a seed comes in when what stood on it has gone", test_freed);
     g_test_add_func("/scene/simulation/steps are taken back as far as is kept", test_undo);
     g_test_add_func("/scene/simulation/E01 a saved state goes on as if nothing had been",
                     test_save);
