@@ -55,9 +55,6 @@ static void take(StudioWindow *window, const StudioBuilt *built) {
         studio_graph_panel_set_counts(window->graph, built->counts);
         studio_string_panel_match(window->string);
     }
-    if (built->status == FR_CANCELLED) {
-        studio_window_say(window, "Stopped: the picture is that of before");
-    }
     if (built->is_growing) {
         window->moment.step = (int64_t)built->step;
         window->asked_moment.step = window->moment.step;

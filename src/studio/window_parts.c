@@ -43,6 +43,7 @@ static void on_ready(StudioViewport *viewport, StudioWindow *window) {
 static void on_cancel(GtkButton *button, StudioWindow *window) {
     (void)button;
     studio_builder_cancel(window->builder);
+    studio_window_say(window, "Stopped: the picture is that of before");
 }
 
 static void on_show_problem(GtkButton *button, StudioWindow *window) {
