@@ -192,8 +192,9 @@ static void pointed(Drive *drive, char *const *words, const char *rest) {
 static void said(Drive *drive, char *const *words, const char *rest) {
     (void)words;
     (void)rest;
-    const AdwToast *toast = drive->window->toast;
-    answer("%s", toast == NULL ? "nothing" : adw_toast_get_title((AdwToast *)toast));
+    const char *text = studio_messages_said(drive->window->over_picture);
+    text = text == NULL ? studio_messages_said(drive->window->over_all) : text;
+    answer("%s", text == NULL ? "nothing" : text);
 }
 
 static gboolean on_wait(gpointer data) {

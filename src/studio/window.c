@@ -7,44 +7,16 @@
 #include <stdarg.h>
 #include <string.h>
 
-enum { AUTOSAVE_SECONDS = 4, SAID_SECONDS = 4, UNDO_SECONDS = 8 };
+enum { AUTOSAVE_SECONDS = 4 };
 
 G_DEFINE_TYPE(StudioWindow, studio_window, ADW_TYPE_APPLICATION_WINDOW)
 
 // ---- what is shown -----------------------------------------------------------------------------
 
-static void on_dismissed(AdwToast *toast, StudioWindow *window) {
-    if (window->toast == toast) {
-        g_clear_weak_pointer(&window->toast);
-        g_clear_handle_id(&window->toast_timer, g_source_remove);
-    }
-}
-
-static gboolean on_said_long_enough(gpointer user) {
-    StudioWindow *window = user;
-    window->toast_timer = 0;
-    adw_toast_dismiss(window->toast);
-    return G_SOURCE_REMOVE;
-}
-
-// What is said while something is shown takes its place: libadwaita 1.2 uses a toast after it has
-// freed it where one is dismissed before it has come up wholly.
-static void say(StudioWindow *window, const char *text, bool can_undo) {
-    char *escaped = g_markup_escape_text(text, -1);
-    if (window->toast == NULL) {
-        AdwToast *toast = adw_toast_new(escaped);
-        adw_toast_set_timeout(toast, 0); // the window's own timer: it begins anew with each text
-        g_set_weak_pointer(&window->toast, toast);
-        g_signal_connect_object(toast, "dismissed", G_CALLBACK(on_dismissed), window, 0);
-        adw_toast_overlay_add_toast(window->toasts, toast);
-    }
-    adw_toast_set_title(window->toast, escaped);
-    adw_toast_set_button_label(window->toast, can_undo ? "_Undo" : NULL);
-    adw_toast_set_action_name(window->toast, can_undo ? "win.undo" : NULL);
-    g_clear_handle_id(&window->toast_timer, g_source_remove);
-    window->toast_timer =
-        g_timeout_add_seconds(can_undo ? UNDO_SECONDS : SAID_SECONDS, on_said_long_enough, window);
-    g_free(escaped);
+// Over the picture they leave the strip for time free.
+static StudioMessages *messages_in_sight(StudioWindow *window) {
+    const char *shown = gtk_stack_get_visible_child_name(GTK_STACK(window->stack));
+    return g_strcmp0(shown, "document") == 0 ? window->over_picture : window->over_all;
 }
 
 void studio_window_say(StudioWindow *window, const char *format, ...) {
@@ -52,14 +24,14 @@ void studio_window_say(StudioWindow *window, const char *format, ...) {
     va_start(list, format);
     char *text = g_strdup_vprintf(format, list);
     va_end(list);
-    say(window, text, false);
+    studio_messages_say(messages_in_sight(window), text, false);
     g_free(text);
 }
 
 void studio_window_say_removed(StudioWindow *window, const char *what, uint32_t users) {
     char *text = g_strdup_printf("Removed %s, which %u %s", what, users,
                                  users == 1 ? "place still uses" : "places still use");
-    say(window, text, true);
+    studio_messages_say(messages_in_sight(window), text, true);
     g_free(text);
 }
 
@@ -214,9 +186,8 @@ void studio_window_show_problem(StudioWindow *window) {
 
 static void on_document_changed(void *user) {
     StudioWindow *window = user;
-    if (window->toast != NULL) {
-        adw_toast_set_button_label(window->toast, NULL); // it would undo something else now
-    }
+    studio_messages_forget_undo(window->over_picture);
+    studio_messages_forget_undo(window->over_all);
     update_title(window);
     update_panels(window);
     studio_window_show_texts(window);
@@ -361,8 +332,6 @@ static void studio_window_dispose(GObject *object) {
         window->settings = NULL;
     }
     g_clear_handle_id(&window->autosave, g_source_remove);
-    g_clear_handle_id(&window->toast_timer, g_source_remove);
-    g_clear_weak_pointer(&window->toast);
     g_clear_handle_id(&window->progress, g_source_remove);
     if (window->builder != NULL) {
         studio_swatches_set_builder(studio_inspector_swatches(window->inspector), NULL);
@@ -374,6 +343,8 @@ static void studio_window_dispose(GObject *object) {
     g_clear_pointer(&window->patch, studio_patch_mode_free);
     g_clear_pointer(&window->string, studio_string_panel_free);
     drop_document(window);
+    g_clear_pointer(&window->over_picture, studio_messages_free);
+    g_clear_pointer(&window->over_all, studio_messages_free);
     g_clear_pointer(&window->selected, g_free);
     g_clear_pointer(&window->plant, g_free);
     G_OBJECT_CLASS(studio_window_parent_class)->dispose(object);
@@ -398,16 +369,15 @@ static void studio_window_init(StudioWindow *window) {
 StudioWindow *studio_window_new(AdwApplication *application, StudioSettings *settings) {
     StudioWindow *window = g_object_new(STUDIO_TYPE_WINDOW, "application", application, NULL);
     window->settings = settings;
-    window->toasts = ADW_TOAST_OVERLAY(adw_toast_overlay_new());
     window->stack = gtk_stack_new();
+    window->over_all = studio_messages_new(window->stack);
     studio_window_add_actions(window);
     studio_window_add_preset_actions(window);
     studio_wind_add_actions(window);
     studio_window_add_cancel(window);
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
     gtk_box_append(GTK_BOX(box), studio_window_make_header(window));
-    gtk_box_append(GTK_BOX(box), GTK_WIDGET(window->toasts));
-    adw_toast_overlay_set_child(window->toasts, window->stack);
+    gtk_box_append(GTK_BOX(box), studio_messages_widget(window->over_all));
     gtk_stack_add_named(GTK_STACK(window->stack), studio_welcome_new(window), "welcome");
     gtk_stack_add_named(GTK_STACK(window->stack), studio_window_make_panes(window), "document");
     studio_window_add_sketch(window);

@@ -369,7 +369,9 @@ static GtkWidget *make_middle(StudioWindow *window) {
     g_signal_connect(window->strip, "time", G_CALLBACK(on_time), window);
     g_signal_connect(window->strip, "step", G_CALLBACK(on_step), window);
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-    gtk_box_append(GTK_BOX(box), GTK_WIDGET(overlay));
+    window->over_picture = studio_messages_new(GTK_WIDGET(overlay));
+    gtk_widget_add_css_class(studio_messages_widget(window->over_picture), "over-picture");
+    gtk_box_append(GTK_BOX(box), studio_messages_widget(window->over_picture));
     gtk_box_append(GTK_BOX(box), GTK_WIDGET(window->strip));
     gtk_widget_set_size_request(box, 320, 240);
     return box;

@@ -8,6 +8,7 @@
 #include "studio/inspector.h"
 #include "studio/levels_panel.h"
 #include "studio/light_mode.h"
+#include "studio/messages.h"
 #include "studio/model/builder.h"
 #include "studio/model/commands.h"
 #include "studio/model/hand.h"
@@ -44,9 +45,7 @@ struct _StudioWindow {
 
     GtkWidget *stack; ///< "welcome", "document"
     AdwWindowTitle *title;
-    AdwToastOverlay *toasts;
-    AdwToast *toast;   ///< what is said; NULL: nothing
-    guint toast_timer; ///< ends it; 0: nothing is said
+    StudioMessages *over_picture, *over_all; ///< the second where no picture is in sight
     StudioFoldBox *panes;
     GtkWidget *undo, *redo, *save_button, *welcome_hidden[7];
     StudioViewport *viewport;

@@ -211,6 +211,8 @@ def test_material(run):
     whole = studio.state()["digest"]
     studio.ask("do remove")
     assert studio.ask("said") == "Removed rind, which 1 place still uses", studio.ask("said")
+    _, y, _, height = studio.where("AdwToastWidget")
+    assert y + height <= studio.where("clock")[1], "what is said leaves the strip for time free"
     run.picture("flower-removed")
     studio.ask("do undo")
     assert studio.state()["digest"] == whole
