@@ -72,6 +72,8 @@
     X(REAL, climb_free, "0.6", 0.001, 1000, "m", "",                                               \
       "climb: length of shoots without a hold at which they end")                                  \
     X(REAL, climb_sag, "1", 0, 10, "", "", "climb: how much they hang down by then")               \
+    X(REAL, climb_wood, "0.02", 0, 1000, "m", "",                                                  \
+      "climb: radius of the thinnest wood of grown plants that it holds on to")                    \
     /* light */                                                                                    \
     X(REAL, search, "0.5", 0, 5, "", "", "how much longer internodes are in shade")                \
     X(REAL, min_length, "0.3", 0.01, 1, "", "", "shortest internode, in steps")                    \

@@ -5,7 +5,7 @@
 // of Climbing Plants, Computer Graphics Forum 36 (2); lengths without a hold after T. Luft's ivy
 // generator, 2007. Both bend by strengths that are tuned; here the bend follows from how far the
 // bud is from where it shall be (docs/growth-engine.md, Climbing).
-#include "growth/engine.h"
+#include "growth/climbing.h"
 #include "growth/obstacles.h"
 
 #include <cglm/struct.h>
@@ -42,28 +42,53 @@ FrStatus fr_growth_take_supports(FrGrowth *growth, const FrContext *context) {
 
 // ---- feeling ----------------------------------------------------------------------------------
 
-/// The ground counts only where nothing else is near, or nothing would leave it.
-FrHold fr_climb_feel(const FrGrowth *growth, const FrSpeciesParams *params, vec3s world) {
-    const FrDistance *surfaces[2] = {growth->support, growth->support_ground};
-    const double at[3] = {(double)world.x, (double)world.y, (double)world.z};
-    FrHold hold = {0};
-    for (int i = 0; i < 2 && !hold.is_near; i++) {
-        double outward[3];
-        hold.distance = surfaces[i] == NULL
-                            ? INFINITY
-                            : fr_distance_within(surfaces[i], at, params->climb, outward);
-        hold.is_near = hold.distance < params->climb;
-        if (hold.is_near) {
-            hold.away = (vec3s){{(float)outward[0], (float)outward[1], (float)outward[2]}};
-        }
-    }
-    return hold;
+/// So much must be free around a tip, and the cells beside it; what stands may stand anywhere in
+/// its cells.
+static double room_of(const FrGrowth *growth, const FrSpeciesParams *params, double spare) {
+    return params->collide ? ((double)(params->box / 2) + spare) * growth->voxels->cell : 0;
 }
 
-/// How far off a surface stems lie: as near as the cells allow that must be free around a tip.
-static double gap_of(const FrGrowth *growth, const FrSpeciesParams *params) {
-    const double spare = 1.1; // a level wall may stand anywhere in its cells
-    return params->collide ? ((double)(params->box / 2) + spare) * growth->voxels->cell : 0;
+static vec3s to_vec3s(const double from[3]) {
+    return (vec3s){{(float)from[0], (float)from[1], (float)from[2]}};
+}
+
+static void feel_surface(const FrGrowth *growth, const FrSpeciesParams *params,
+                         const FrDistance *surface, const double at[3], FrHold *hold) {
+    double outward[3];
+    double distance =
+        surface == NULL ? INFINITY : fr_distance_within(surface, at, params->climb, outward);
+    if (distance < params->climb) {
+        hold->is_near = true;
+        hold->distance = distance;
+        hold->away = to_vec3s(outward);
+        hold->gap = room_of(growth, params, 1.1);
+    }
+}
+
+/// Wood occupies only the cells of its middle line, so stems may touch it where it is thick.
+static void feel_bark(const FrGrowth *growth, const FrSpeciesParams *params, const double at[3],
+                      FrHold *hold) {
+    double reach = hold->is_near ? hold->distance : params->climb;
+    FrBark bark = fr_stems_near(growth->bark, at, reach, params->climb_wood);
+    if (bark.distance < reach) {
+        hold->is_near = hold->is_grown = true;
+        hold->distance = bark.distance;
+        hold->away = to_vec3s(bark.outward);
+        hold->radius = bark.radius;
+        hold->gap = fmax(params->tip_radius, room_of(growth, params, 1.5) - bark.radius);
+    }
+}
+
+/// The ground counts only where nothing else is near, or nothing would leave it.
+FrHold fr_climb_feel(const FrGrowth *growth, const FrSpeciesParams *params, vec3s world) {
+    const double at[3] = {(double)world.x, (double)world.y, (double)world.z};
+    FrHold hold = {.at = world, .distance = INFINITY};
+    feel_surface(growth, params, growth->support, at, &hold);
+    feel_bark(growth, params, at, &hold);
+    if (!hold.is_near) {
+        feel_surface(growth, params, growth->support_ground, at, &hold);
+    }
+    return hold;
 }
 
 // ---- growing ----------------------------------------------------------------------------------
@@ -77,6 +102,23 @@ vec3s fr_climb_pull(const FrGrowth *growth, const FrSpeciesParams *params, const
 
 static vec3s across(vec3s vector, vec3s unit) {
     return glms_vec3_sub(vector, glms_vec3_scale(unit, glms_vec3_dot(vector, unit)));
+}
+
+/// A way along wood, which is round: bent so that its end lies as far off the bark as it shall.
+static vec3s around_wood(const FrGrowth *growth, const FrSpeciesParams *params, const FrHold *hold,
+                         vec3s way, float length) {
+    enum { TIMES = 2 };
+    for (int k = 0; k < TIMES; k++) {
+        vec3s end = glms_vec3_add(hold->at, glms_vec3_scale(way, length));
+        FrHold there = fr_climb_feel(growth, params, end);
+        if (!there.is_grown) {
+            break;
+        }
+        double lack = there.gap - there.distance, most = (double)length / 2;
+        vec3s lift = glms_vec3_scale(there.away, (float)(params->cling * CLAMP(lack, -most, most)));
+        way = glms_vec3_normalize(glms_vec3_add(glms_vec3_scale(way, length), lift));
+    }
+    return way;
 }
 
 vec3s fr_climb_direction(const FrGrowth *growth, const FrSpeciesParams *params,
@@ -94,23 +136,65 @@ vec3s fr_climb_direction(const FrGrowth *growth, const FrSpeciesParams *params,
     if (glms_vec3_norm(along) < 1e-3f) {
         along = across(glms_vec3_cross(bud->direction, bud->side), hold->away);
     }
-    double gap = gap_of(growth, params), length = MAX((double)bud->length, 1e-6);
+    double gap = hold->gap, length = MAX((double)bud->length, 1e-6);
     double over = fmax((double)trial - (double)(params->trials / 2), 0); // first beside, then over
     double lean = params->cling * CLAMP((gap - hold->distance) / length, -1, 1) + lift * over;
     float out = (float)CLAMP(lean, -steepest, 0.95);
     vec3s held = glms_vec3_add(glms_vec3_scale(glms_vec3_normalize(along), sqrtf(1 - out * out)),
                                glms_vec3_scale(hold->away, out));
+    if (hold->is_grown && hold->distance < gap + length) {
+        held = around_wood(growth, params, hold, held, (float)length);
+    }
     double faint = (hold->distance - gap) / MAX(params->climb - gap, 1e-6);
     float part = (float)CLAMP(1 - faint, 0, 1);
     vec3s sum = glms_vec3_add(glms_vec3_scale(held, part), glms_vec3_scale(wanted, 1 - part));
     return glms_vec3_norm(sum) < 1e-4f ? held : glms_vec3_normalize(sum);
 }
 
+double fr_climb_room(const FrGrowth *growth, const FrSpeciesParams *params, const double from[3],
+                     const double way[3], double part, FrBark *bark) {
+    double at[3], length = 0;
+    for (int r = 0; r < 3; r++) {
+        at[r] = from[r] + part * way[r];
+        length += way[r] * way[r];
+    }
+    length = sqrt(length);
+    *bark = fr_stems_near(growth->bark, at, length, params->climb_wood);
+    if (!(bark->distance < length)) {
+        return length;
+    }
+    double bend = fmin(length * length / (8 * fmax(bark->radius, 1e-6)), bark->radius / 4);
+    return bark->distance + 4 * part * (1 - part) * bend;
+}
+
+bool fr_climb_is_clear(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud,
+                       vec3s to) {
+    const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
+    if (growth->bark == NULL || !fr_species_climbs(params)) {
+        return true;
+    }
+    vec3s bud_at = fr_bud_world(plant, bud);
+    double length = (double)bud->length, from[3], way[3];
+    for (int r = 0; r < 3; r++) {
+        from[r] = (double)bud_at.raw[r];
+        way[r] = plant->seed.at[r] + (double)to.raw[r] - from[r];
+    }
+    FrBark bark;
+    double shortest = length / 32;
+    for (double along = 0; along < length;) {
+        double room = fr_climb_room(growth, params, from, way, along / length, &bark);
+        if (room <= 0) {
+            return false;
+        }
+        along += fmax(room, shortest);
+    }
+    return fr_climb_room(growth, params, from, way, 1, &bark) > params->tip_radius / 2;
+}
+
 bool fr_climb_note(const FrGrowth *growth, const FrGrownPlant *plant, FrLiveBud *bud) {
     const FrSpeciesParams *params = &fr_species_of(growth, plant)->params;
     FrHold hold = fr_climb_feel(growth, params, fr_bud_world(plant, bud));
-    double holds_at = gap_of(growth, params) + params->step / 2;
-    if (hold.is_near && hold.distance <= holds_at) {
+    if (hold.is_near && hold.distance <= hold.gap + params->step / 2) {
         bud->unheld = 0;
         // Buds to both sides then lie along the surface.
         vec3s side = glms_vec3_cross(hold.away, bud->direction);

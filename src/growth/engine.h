@@ -160,6 +160,7 @@ struct FrGrowth {
     FrGrowthObstacle *obstacles; ///< own copies
     uint32_t obstacle_count;
     FrDistance *support, *support_ground; ///< what can be climbed; NULL: nothing, or nobody climbs
+    struct FrStems *bark;                 ///< of plants that can be climbed; NULL: none
     vec3s *suns;
     FrLight *light; ///< borrowed, NULL: that of the parameters
     const FrLamp *lamps;
@@ -360,8 +361,12 @@ void fr_growth_wake(const FrGrowth *growth, FrGrownPlant *plant, FrScratch *scra
 /// What a plant may hold on to near a place.
 typedef struct FrHold {
     bool is_near;    ///< within reach
+    bool is_grown;   ///< the wood of a plant that grows in this world
+    vec3s at;        ///< where this was felt
     double distance; ///< m; below 0 inside
     vec3s away;      ///< unit, from the surface
+    double gap;      ///< m: how far off stems lie
+    double radius;   ///< of grown wood there, m
 } FrHold;
 
 /// Prepares what climbing species feel, if there are any.
@@ -376,6 +381,9 @@ vec3s fr_climb_pull(const FrGrowth *growth, const FrSpeciesParams *params, const
 /// The direction of a bud that wants to grow along the unit vector `wanted`.
 vec3s fr_climb_direction(const FrGrowth *growth, const FrSpeciesParams *params,
                          const FrLiveBud *bud, const FrHold *hold, vec3s wanted, uint32_t trial);
+/// True if the way of a bud to a place, relative to the seed, does not lead through grown wood.
+bool fr_climb_is_clear(const FrGrowth *growth, const FrGrownPlant *plant, const FrLiveBud *bud,
+                       vec3s to);
 /// Notes whether a bud has a hold at its new node. False if it has gone too far without.
 bool fr_climb_note(const FrGrowth *growth, const FrGrownPlant *plant, FrLiveBud *bud);
 
@@ -393,6 +401,8 @@ void fr_growth_pipes(const FrGrownPlant *plant, const FrSpeciesParams *params, d
 /// Radii of so much wood, m.
 void fr_growth_radii(const FrReadySpecies *species, const double *pipes, uint32_t count,
                      float *radii);
+/// Radii of all nodes of a plant, m. Free with g_free().
+float *fr_growth_radii_of(const FrGrowth *growth, const FrGrownPlant *plant);
 
 // ---- fates.c ----------------------------------------------------------------------------------
 /// What each bud will do in this step: how many internodes it makes, and how long they are.
@@ -401,6 +411,9 @@ void fr_growth_fates(FrGrowth *growth, FrGrownPlant *plant, int worker);
 // ---- shed.c -----------------------------------------------------------------------------------
 /// Drops branches, and takes them out of the columns.
 void fr_growth_shed(FrGrowth *growth, FrGrownPlant *plant, int worker);
+/// Frees the cells of the marked internodes.
+void fr_growth_free_cells(const FrGrowth *growth, const FrGrownPlant *plant,
+                          const uint8_t *is_freed);
 /// Drops the marked internodes; on what bears one that has fallen, all must have.
 void fr_growth_drop(FrGrowth *growth, FrGrownPlant *plant, const uint8_t *has_fallen, int worker);
 

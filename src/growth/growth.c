@@ -1,4 +1,5 @@
 // The world of a growth: made, changed, counted.
+#include "growth/climbing.h"
 #include "growth/propose.h"
 
 #include <cglm/struct.h>
@@ -206,6 +207,7 @@ void fr_growth_free(FrGrowth *growth) {
     }
     fr_growth_drop_state(growth);
     fr_other_scene_free(growth->other_scene);
+    fr_stems_free(growth->bark);
     drop_species(growth);
     drop_obstacles(growth);
     g_free(growth->proposals);
@@ -251,6 +253,7 @@ FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup, const Fr
     }
     drop_species(&old);
     drop_obstacles(&old);
+    fr_growth_find_bark(growth, context);
     return status;
 }
 

@@ -38,22 +38,28 @@ void fr_growth_radii(const FrReadySpecies *species, const double *pipes, uint32_
     }
 }
 
+float *fr_growth_radii_of(const FrGrowth *growth, const FrGrownPlant *plant) {
+    const FrReadySpecies *species = fr_species_of(growth, plant);
+    uint32_t count = plant->nodes.count;
+    double *pipes = g_new(double, count + 1);
+    float *radii = g_new(float, count + 1);
+    fr_growth_pipes(plant, &species->params, pipes);
+    fr_growth_radii(species, pipes, count, radii);
+    g_free(pipes);
+    return radii;
+}
+
 double fr_growth_wood(const FrGrowth *growth, uint32_t plant) {
     FR_ASSERT(plant < growth->plant_count);
     const FrGrownPlant *of = &growth->plants[plant];
-    const FrReadySpecies *species = fr_species_of(growth, of);
-    uint32_t count = of->nodes.count;
-    double *pipes = g_new(double, count + 1), volume = 0;
-    float *radii = g_new(float, count + 1);
-    fr_growth_pipes(of, &species->params, pipes);
-    fr_growth_radii(species, pipes, count, radii);
-    for (uint32_t i = 0; i < count; i++) {
+    float *radii = fr_growth_radii_of(growth, of);
+    double volume = 0;
+    for (uint32_t i = 0; i < of->nodes.count; i++) {
         uint32_t parent = of->nodes.parent[i];
         vec3s from = parent == FR_NONE ? (vec3s){{0, 0, 0}} : of->nodes.at[parent];
         double radius = (double)radii[i];
         volume += G_PI * radius * radius * (double)glms_vec3_distance(from, of->nodes.at[i]);
     }
-    g_free(pipes);
     g_free(radii);
     return volume;
 }

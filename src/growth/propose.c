@@ -57,7 +57,8 @@ static void propose(const FrGrowth *growth, FrProposal *proposal, bool is_again,
         }
         if (is_in_arena(growth, plant, proposal->at) &&
             is_in_envelope(growth, plant, bud, bud_at(plant, bud), proposal->at) &&
-            (!species->params.collide || fr_growth_is_free(growth, proposal, cells))) {
+            (!species->params.collide || fr_growth_is_free(growth, proposal, cells)) &&
+            fr_climb_is_clear(growth, plant, bud, proposal->at)) {
             proposal->state = species->params.collide ? FR_PROPOSAL_ASKS : FR_PROPOSAL_WON;
             return;
         }

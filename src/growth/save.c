@@ -1,6 +1,6 @@
 // The state of a growth as bytes: a head, the plants' columns as they are in memory, the cells that
 // have owners, and a digest of all that. Numbers are little-endian.
-#include "growth/engine.h"
+#include "growth/climbing.h"
 
 #include <math.h>
 #include <string.h>
@@ -333,6 +333,7 @@ FrStatus fr_growth_restore(FrGrowth *growth, const void *bytes, size_t size, FrS
         unlimited.limits.bytes = UINT64_MAX;
         FrStatus status = fr_growth_stand_obstacles(growth, &unlimited);
         FR_ASSERT(status == FR_OK);
+        fr_growth_find_bark(growth, context);
     } else {
         fr_diags_add(context->diags, FR_ERROR, "growth-state", span,
                      "this is no saved state of growth, or one of another document");

@@ -68,14 +68,13 @@ static uint32_t mark(const FrGrowth *growth, const FrGrownPlant *plant, const Cr
     return count;
 }
 
-/// Frees the cells of fallen internodes.
-static void free_cells(const FrGrowth *growth, const FrGrownPlant *plant,
-                       const uint8_t *has_fallen) {
+void fr_growth_free_cells(const FrGrowth *growth, const FrGrownPlant *plant,
+                          const uint8_t *is_freed) {
     const FrGrownNodes *nodes = &plant->nodes;
     FrCell cells[FR_WALK_CELLS];
     for (uint32_t i = 0; i < nodes->count; i++) {
         uint32_t owner = plant->axes[nodes->axis[i]].owner;
-        if (!has_fallen[i] || owner == FR_NONE) {
+        if (!is_freed[i] || owner == FR_NONE) {
             continue;
         }
         uint32_t count = fr_growth_walk(growth, plant, nodes->parent[i], nodes->at[i], cells);
@@ -218,7 +217,7 @@ void fr_growth_drop(FrGrowth *growth, FrGrownPlant *plant, const uint8_t *has_fa
             g_array_append_val(growth->fallen[worker], at);
         }
     }
-    free_cells(growth, plant, has_fallen);
+    fr_growth_free_cells(growth, plant, has_fallen);
     remember_wood(plant, params, has_fallen, pipes);
     number_axes(plant, has_fallen, axis_of);
     shorten_axes(plant, has_fallen);

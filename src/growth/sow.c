@@ -1,5 +1,5 @@
 // How plants begin: seeds that have a place at once, others when their place becomes free.
-#include "growth/engine.h"
+#include "growth/climbing.h"
 
 #include <cglm/struct.h>
 #include <math.h>
@@ -101,6 +101,7 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     if (status != FR_OK) {
         keep_plants(growth, first);
     } else {
+        fr_growth_find_bark(growth, context);
         fr_misplaced_tell_left_out(&left_out, count, left_out.count == growth->plant_count,
                                    context);
         fr_misplaced_tell_outside(&outside, count, context);

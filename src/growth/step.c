@@ -1,6 +1,7 @@
 // One step of all plants: light, particles, vigour, then the internodes of each shoot one after the
 // other (propose, claim, commit, sprout), then waking and shedding (Beneš, Andrysco, Šťava 2009,
 // section 3.2, with its random order of buds replaced by claims that know no order).
+#include "growth/climbing.h"
 #include "growth/propose.h"
 
 /// What has been settled becomes wood.
@@ -139,7 +140,8 @@ bool fr_growth_undo(FrGrowth *growth) {
 
 /// More than this a step cannot make, and what there is fits.
 static FrStatus check_limits(const FrGrowth *growth, const FrContext *context) {
-    uint64_t bytes = growth->voxels->bytes;
+    uint64_t bytes =
+        fr_count_add(growth->voxels->bytes, fr_stems_bytes(fr_stems_count(growth->bark)));
     for (uint32_t p = 0; p < growth->plant_count; p++) {
         const FrGrownPlant *plant = &growth->plants[p];
         const FrReadySpecies *species = fr_species_of(growth, plant);
@@ -192,6 +194,8 @@ FrStatus fr_growth_step(FrGrowth *growth, const FrContext *context) {
     make_shoots(growth, context);
     fr_growth_reach_particles(growth, context);
     fr_parallel_for(context->pool, growth->plant_count, 1, end_plants, growth, NULL);
+    fr_growth_find_bark(growth, context);
+    fr_growth_carry(growth, context);
     fr_growth_recast(growth, context);
     growth->seconds = (double)(g_get_monotonic_time() - begin) * 1e-6;
     return FR_OK;

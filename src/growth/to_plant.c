@@ -1,15 +1,9 @@
 // A grown plant as an FrPlant: axes as splines through their nodes, frames, radii, buds.
 #include "growth/making.h"
+#include "growth/spline.h"
 
 #include <cglm/struct.h>
 #include <math.h>
-
-enum { MOST_PARTS = 5 };
-#define BEND_OF_PART (8 * G_PI / 180)
-
-static vec3s tip_of(const FrGrownPlant *plant, uint32_t node) {
-    return node == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[node];
-}
 
 static uint32_t component_of(FrMaking *making, uint32_t order, uint32_t *known) {
     while (*known <= order) {
@@ -42,54 +36,6 @@ static void add_axes(FrMaking *making) {
     making->leaf_component = fr_plant_add_component(plant, "leaf", (FrSpan){0});
 }
 
-/// Tangents of a Catmull-Rom spline through the nodes of the axes, each as long as its internode.
-typedef struct Tangents {
-    vec3s *in, *out; ///< by node: at the base and at the tip of its internode
-} Tangents;
-
-static Tangents tangents_of(const FrGrownPlant *from) {
-    const FrGrownNodes *nodes = &from->nodes;
-    Tangents tangents = {g_new(vec3s, nodes->count + 1), g_new(vec3s, nodes->count + 1)};
-    for (uint32_t i = 0; i < nodes->count; i++) {
-        uint32_t parent = nodes->parent[i];
-        vec3s along = glms_vec3_sub(nodes->at[i], tip_of(from, parent));
-        tangents.in[i] = tangents.out[i] = along;
-        if (parent == FR_NONE || nodes->axis[parent] != nodes->axis[i]) {
-            continue;
-        }
-        vec3s before = glms_vec3_sub(nodes->at[parent], tip_of(from, nodes->parent[parent]));
-        float a = glms_vec3_norm(before), b = glms_vec3_norm(along);
-        vec3s mean = glms_vec3_add(glms_vec3_scale(before, 1 / fmaxf(a, 1e-6f)),
-                                   glms_vec3_scale(along, 1 / fmaxf(b, 1e-6f)));
-        float length = glms_vec3_norm(mean);
-        if (length > 1e-3f) {
-            mean = glms_vec3_scale(mean, 1 / length);
-            tangents.out[parent] = glms_vec3_scale(mean, a);
-            tangents.in[i] = glms_vec3_scale(mean, b);
-        }
-    }
-    return tangents;
-}
-
-static vec3s hermite(vec3s a, vec3s b, vec3s from, vec3s to, float t) {
-    float t2 = t * t, t3 = t2 * t;
-    vec3s point = glms_vec3_scale(a, 2 * t3 - 3 * t2 + 1);
-    point = glms_vec3_add(point, glms_vec3_scale(from, t3 - 2 * t2 + t));
-    point = glms_vec3_add(point, glms_vec3_scale(b, 3 * t2 - 2 * t3));
-    return glms_vec3_add(point, glms_vec3_scale(to, t3 - t2));
-}
-
-/// How many straight parts an internode needs.
-static uint32_t parts_of(const FrSpeciesParams *params, vec3s in, vec3s out) {
-    float a = glms_vec3_norm(in), b = glms_vec3_norm(out);
-    if (!params->smooth || a <= 0 || b <= 0) {
-        return 1;
-    }
-    float cosine = glms_vec3_dot(in, out) / (a * b);
-    double bend = acos((double)CLAMP(cosine, -1, 1));
-    return (uint32_t)CLAMP(ceil(bend / BEND_OF_PART), 1, MOST_PARTS);
-}
-
 /// Appends a straight part from `from` to `to`, with the smallest turn.
 static uint32_t add_part(FrMaking *making, uint32_t axis, uint32_t parent, vec3s from, vec3s to,
                          float radius) {
@@ -107,7 +53,7 @@ static uint32_t add_part(FrMaking *making, uint32_t axis, uint32_t parent, vec3s
     return fr_plant_add_node(plant, axis, local, length, radius);
 }
 
-static void add_internode(FrMaking *making, const Tangents *tangents, uint32_t i) {
+static void add_internode(FrMaking *making, const FrTangents *tangents, uint32_t i) {
     const FrGrownNodes *nodes = &making->from->nodes;
     FrPlant *plant = making->plant;
     uint32_t grown_parent = nodes->parent[i];
@@ -118,18 +64,12 @@ static void add_internode(FrMaking *making, const Tangents *tangents, uint32_t i
         plant->axes.bearer[axis] = parent;
         plant->axes.base_radius[axis] = making->radii[i];
     }
-    float base = is_first || parent == FR_NONE ? making->radii[i] : making->radii[grown_parent];
-    vec3s from = tip_of(making->from, grown_parent), start = from;
-    uint32_t parts = parts_of(&making->species->params, tangents->in[i], tangents->out[i]);
-    for (uint32_t part = 1; part <= parts; part++) {
-        float t = (float)part / (float)parts;
-        vec3s to = part == parts
-                       ? nodes->at[i]
-                       : hermite(start, nodes->at[i], tangents->in[i], tangents->out[i], t);
-        float radius = base + (making->radii[i] - base) * t;
-        parent = add_part(making, axis, parent, from, to, radius);
+    FrInternodeParts drawn =
+        fr_spline_parts(making->from, &making->species->params, tangents, making->radii, i);
+    for (uint32_t part = 1; part <= drawn.count; part++) {
+        parent =
+            add_part(making, axis, parent, drawn.at[part - 1], drawn.at[part], drawn.radius[part]);
         plant->nodes.birth[parent] = nodes->birth[i];
-        from = to;
     }
     making->node_of[i] = parent;
 }
@@ -150,14 +90,6 @@ static void add_buds(FrMaking *making) {
     }
 }
 
-static void find_radii(FrMaking *making) {
-    uint32_t count = making->from->nodes.count;
-    double *pipes = g_new(double, count + 1);
-    fr_growth_pipes(making->from, &making->species->params, pipes);
-    fr_growth_radii(making->species, pipes, count, making->radii);
-    g_free(pipes);
-}
-
 FrStatus fr_growth_plant(const FrGrowth *growth, uint32_t plant, const FrContext *context,
                          FrPlant **grown) {
     *grown = NULL;
@@ -166,7 +98,7 @@ FrStatus fr_growth_plant(const FrGrowth *growth, uint32_t plant, const FrContext
     const FrReadySpecies *species = fr_species_of(growth, from);
     uint64_t organs = fr_count_multiply(from->nodes.count, (uint64_t)species->params.leaves);
     FrStatus status =
-        fr_limit_check(fr_count_multiply(from->nodes.count, MOST_PARTS), context->limits.nodes,
+        fr_limit_check(fr_count_multiply(from->nodes.count, FR_MOST_PARTS), context->limits.nodes,
                        "nodes", species->name, (FrSpan){0}, context->diags);
     if (status == FR_OK) {
         status = fr_limit_check(organs, context->limits.organs, "organs", species->name,
@@ -181,17 +113,15 @@ FrStatus fr_growth_plant(const FrGrowth *growth, uint32_t plant, const FrContext
                        .plant = fr_plant_new(species->name),
                        .node_of = g_new(uint32_t, from->nodes.count + 1),
                        .axis_of = g_new(uint32_t, from->axis_count + 1),
-                       .radii = g_new(float, from->nodes.count + 1)};
+                       .radii = fr_growth_radii_of(growth, from)};
     add_axes(&making);
-    find_radii(&making);
-    Tangents tangents = tangents_of(from);
+    FrTangents tangents = fr_spline_tangents(from);
     for (uint32_t i = 0; i < from->nodes.count; i++) {
         add_internode(&making, &tangents, i);
     }
     fr_making_add_leaves(&making);
     add_buds(&making);
-    g_free(tangents.in);
-    g_free(tangents.out);
+    fr_spline_clear(&tangents);
     g_free(making.node_of);
     g_free(making.axis_of);
     g_free(making.radii);
