@@ -87,23 +87,17 @@ char *studio_scene_chosen_plant(StudioSceneTool *tool, const char *key) {
     if (name == NULL || !g_str_has_prefix(name, preset_mark)) {
         return g_strdup(name);
     }
-    char *file = studio_preset_file(name + strlen(preset_mark), ".frond"), *id = NULL;
-    char *problem = file == NULL ? NULL : studio_presets_problem(file);
-    FrStatus status;
-    FrSource *source =
-        file == NULL
-            ? NULL
-            : fr_source_load(file, fr_context_default().limits.document_bytes, NULL, &status);
-    if (problem != NULL) {
-        studio_window_say(tool->window, "The preset %s is not planted: %s",
-                          name + strlen(preset_mark), problem);
-    } else if (source != NULL && studio_adopt(tool->window->document, source, NULL, key, &id)) {
+    char *id = NULL;
+    StudioCarried carried =
+        studio_window_bring(tool->window, name + strlen(preset_mark), studio_adopt_elements);
+    if (carried.source != NULL &&
+        studio_adopt(tool->window->document, carried.source, NULL, key, &id)) {
         list_again(tool);
         choose_plant(tool, id);
+    } else {
+        studio_carried_undo(&carried);
     }
-    fr_source_unref(source);
-    g_free(problem);
-    g_free(file);
+    studio_carried_clear(&carried);
     return id;
 }
 

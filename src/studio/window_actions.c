@@ -50,7 +50,9 @@ static bool save_to(StudioWindow *window, const char *path) {
     FrStatus status = studio_recovery_save(window->recovery, path, diags);
     if (status == FR_OK) {
         studio_settings_add_recent(window->settings, studio_document_path(window->document));
-        studio_window_say(window, "Saved %s", studio_document_name(window->document));
+        bool is_whole = fr_diags_count(diags) == 0;
+        studio_window_say(window, "Saved %s%s%s", studio_document_name(window->document),
+                          is_whole ? "" : ", but ", is_whole ? "" : fr_diags_get(diags, 0)->text);
     } else {
         studio_window_say(window, "%s", fr_diags_get(diags, 0)->text);
     }

@@ -2,6 +2,7 @@
 /// is put into the graph of a plant.
 #include "frond/presets.h"
 #include "studio/accessible.h"
+#include "studio/model/adopt.h"
 #include "studio/model/presets.h"
 #include "studio/model/subgraph.h"
 #include "studio/preset_cards.h"
@@ -99,20 +100,19 @@ static void show_asked(Asked *asked, const char *name, GCallback answered) {
 // ---- keeping a part ----------------------------------------------------------------------------
 
 static void keep(StudioWindow *window, const char *id, const char *name) {
-    char *refusal, *folder = fr_presets_folder();
-    char *text =
-        studio_subgraph_text(window->document, studio_window_plant(window), id, name, &refusal);
+    char *folder = fr_presets_folder();
+    char *text = studio_subgraph_text(window->document, studio_window_plant(window), id, name);
     FrDiags *diags = fr_diags_new();
     if (text == NULL) {
-        studio_window_say(window, "%s", refusal != NULL ? refusal : "There is no such component");
-    } else if (studio_presets_save(folder, name, text, diags) != FR_OK) {
+        studio_window_say(window, "There is no such component");
+    } else if (studio_presets_save(folder, name, text, studio_document_folder(window->document),
+                                   diags) != FR_OK) {
         studio_window_say(window, "It is not kept: %s", fr_diags_get(diags, 0)->text);
     } else {
         studio_window_say(window, "Kept as the preset %s", name);
     }
     fr_diags_free(diags);
     g_free(text);
-    g_free(refusal);
     g_free(folder);
 }
 
@@ -203,28 +203,59 @@ static char *camera_of(StudioWindow *window) {
     return camera == FR_NONE ? NULL : g_strdup(fr_contents_at(contents, camera)->id);
 }
 
-// `on`: the component beneath which it comes; empty: beneath none.
-static void insert(StudioWindow *window, const char *name, const char *on) {
-    char *file = studio_preset_file(name, ".frond"), *id = NULL;
+static FrContents *read_preset(const char *file) {
+    FrContext context = fr_context_default();
     FrStatus status;
     FrSource *source =
-        file == NULL
-            ? NULL
-            : fr_source_load(file, fr_context_default().limits.document_bytes, NULL, &status);
-    char *problem = file == NULL ? NULL : studio_presets_problem(file);
-    const char *refusal = problem != NULL  ? problem
-                          : source == NULL ? "It cannot be read"
-                                           : studio_subgraph_refusal(source);
-    if (refusal != NULL) {
-        studio_window_say(window, "The preset %s is not put in: %s", name, refusal);
-    } else if (studio_insert_subgraph(window->document, studio_window_plant(window), source,
-                                      *on == '\0' ? NULL : on, &id)) {
-        studio_window_select_component(window, id);
+        file == NULL ? NULL : fr_source_load(file, context.limits.document_bytes, NULL, &status);
+    FrContents *contents = NULL;
+    if (source != NULL && fr_contents_read(source, &context, &contents) != FR_OK) {
+        contents = NULL;
     }
     fr_source_unref(source);
-    g_free(problem);
-    g_free(id);
+    return contents;
+}
+
+StudioCarried studio_window_bring(StudioWindow *window, const char *name,
+                                  GHashTable *(*elements)(const FrContents *)) {
+    char *file = studio_preset_file(name, ".frond");
+    FrContents *theirs = read_preset(file);
+    StudioCarried carried = {NULL, NULL, g_ptr_array_new_with_free_func(g_free)};
+    carried.refusal = file == NULL ? NULL : studio_presets_problem(file);
+    if (theirs == NULL && carried.refusal == NULL) {
+        carried.refusal = g_strdup("It cannot be read");
+    } else if (carried.refusal == NULL) {
+        studio_carried_clear(&carried);
+        GHashTable *wanted = elements(theirs);
+        char *folder = g_path_get_dirname(file);
+        carried = studio_bring(window->document, theirs, folder, wanted);
+        g_free(folder);
+        g_hash_table_unref(wanted);
+    }
+    if (carried.refusal != NULL) {
+        studio_window_say(window, "The preset %s is not put in: %s", name, carried.refusal);
+    }
+    fr_contents_free(theirs);
     g_free(file);
+    return carried;
+}
+
+// `on`: the component beneath which it comes; empty: beneath none.
+static void insert(StudioWindow *window, const char *name, const char *on) {
+    StudioCarried carried = studio_window_bring(window, name, studio_subgraph_elements);
+    const char *refusal = carried.source == NULL ? NULL : studio_subgraph_refusal(carried.source);
+    char *id = NULL;
+    if (refusal != NULL) {
+        studio_window_say(window, "The preset %s is not put in: %s", name, refusal);
+    } else if (carried.source != NULL &&
+               studio_insert_subgraph(window->document, studio_window_plant(window), carried.source,
+                                      *on == '\0' ? NULL : on, &id)) {
+        studio_window_select_component(window, id);
+    } else {
+        studio_carried_undo(&carried);
+    }
+    studio_carried_clear(&carried);
+    g_free(id);
 }
 
 static char *usual_place(StudioWindow *window) {
@@ -300,30 +331,48 @@ static void do_copy(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)parameter;
     StudioWindow *window = data;
     const char *id = studio_window_component(window);
-    char *refusal = NULL,
-         *text = id == NULL ? NULL
-                            : studio_subgraph_text(window->document, studio_window_plant(window),
-                                                   id, id, &refusal);
+    char *text = id == NULL
+                     ? NULL
+                     : studio_subgraph_text(window->document, studio_window_plant(window), id, id);
     if (text != NULL) {
         gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(window)), text);
         studio_window_say(window, "Copied %s with everything beneath it", id);
-    } else if (refusal != NULL) {
-        studio_window_say(window, "%s", refusal);
     }
-    g_free(refusal);
     g_free(text);
+}
+
+// A file that what was copied names and that is not beside the document. Free with g_free().
+static char *missing_file(const StudioWindow *window, FrSource *source) {
+    FrContext context = fr_context_default();
+    FrContents *contents;
+    char *missing = NULL;
+    GPtrArray *names = fr_contents_read(source, &context, &contents) == FR_OK
+                           ? studio_named_files(contents)
+                           : g_ptr_array_new();
+    for (guint i = 0; i < names->len && missing == NULL; i++) {
+        const char *name = g_ptr_array_index(names, i);
+        char *path = g_build_filename(studio_document_folder(window->document), name, NULL);
+        missing = g_file_test(path, G_FILE_TEST_EXISTS) ? NULL : g_strdup(name);
+        g_free(path);
+    }
+    g_ptr_array_unref(names);
+    fr_contents_free(contents);
+    return missing;
 }
 
 static void paste(StudioWindow *window, const char *text) {
     FrSource *source = fr_source_new("clipboard", text, strlen(text));
-    char *on = usual_place(window), *id = NULL;
+    char *on = usual_place(window), *id = NULL, *missing = missing_file(window, source);
     const char *refusal = studio_subgraph_refusal(source);
     if (refusal != NULL) {
         studio_window_say(window, "What was copied is no part of a plant");
+    } else if (missing != NULL) {
+        studio_window_say(window, "It needs the file %s, which a preset would bring", missing);
     } else if (studio_insert_subgraph(window->document, studio_window_plant(window), source,
                                       *on == '\0' ? NULL : on, &id)) {
         studio_window_select_component(window, id);
     }
+    g_free(missing);
     g_free(id);
     g_free(on);
     fr_source_unref(source);

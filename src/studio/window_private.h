@@ -10,6 +10,7 @@
 #include "studio/light_mode.h"
 #include "studio/messages.h"
 #include "studio/model/builder.h"
+#include "studio/model/carry.h"
 #include "studio/model/commands.h"
 #include "studio/model/hand.h"
 #include "studio/model/place.h"
@@ -97,6 +98,10 @@ void studio_window_select_component(StudioWindow *window, const char *id);
 // window_presets.c
 
 void studio_window_add_preset_actions(StudioWindow *window);
+/// The text of a preset, of whose files those that `elements` of it name are beside the document
+/// now; without a source after a message. Undo it where it is not put in; clear it.
+StudioCarried studio_window_bring(StudioWindow *window, const char *name,
+                                  GHashTable *(*elements)(const FrContents *));
 
 // window.c
 

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import time
 
 from driven_run import BEGINNING, PICTURES, SOURCE, is_left
@@ -154,6 +155,41 @@ def test_preset(run):
     studio.ask("do undo")
     studio.wait()
     assert studio.state()["digest"] == before["digest"]
+
+
+DRESSED = """<frond version="1">
+  <material id="painted" picture="pictures/bark.png"/>
+  <plant id="post"><pgraph>
+    <horn id="pole" material="painted" length="1" radius="0.2"/>
+  </pgraph></plant>
+</frond>
+"""
+
+
+def test_preset_files(run):
+    """a part with a picture is kept with it, and brings it to another document"""
+    studio = run.studio
+    here, there = (os.path.join(run.home, name) for name in ("here", "there"))
+    for folder in (os.path.join(here, "pictures"), there):
+        os.makedirs(folder, exist_ok=True)
+    shutil.copy(SOURCE / "data" / "presets" / "oak.png", os.path.join(here, "pictures", "bark.png"))
+    run.open(run.write("here/post.frond", DRESSED))
+    studio.ask("do select::pole")
+    studio.ask("do save-preset-as::a post")
+    assert studio.ask("said") == "Kept as the preset a post", studio.ask("said")
+    shutil.rmtree(here)
+    run.open(run.write("there/plain.frond", DRESSED.replace("picture", "colour").replace(
+        "colours/bark.png", "#884422")))
+    studio.ask("do select::pole")
+    studio.ask("do insert-preset-named::a post")
+    studio.wait()
+    assert studio.state()["problems"] == 0, studio.state()
+    assert os.path.exists(os.path.join(there, "bark.png"))
+    text = studio.text(run.home)
+    assert 'picture="bark.png"' in text and 'to="pole2"' in text, text
+    run.picture("preset-files")
+    studio.ask("do undo")
+    studio.wait()
 
 
 def test_slider(run):

@@ -5,6 +5,7 @@
 #include "studio/model/builder.h"
 #include "studio/model/commands.h"
 
+#include <glib/gstdio.h>
 #include <string.h>
 
 /// A file of the project. Free with g_free().
@@ -33,4 +34,22 @@ static inline uint32_t element_of(const StudioDocument *document, const char *id
     uint32_t element = fr_contents_find(studio_document_contents(document), 0, id);
     g_assert_cmpuint(element, !=, FR_NONE);
     return element;
+}
+
+/// Removes a folder with all in it, a link without what it leads to. Returns how many files.
+static inline guint remove_tree(const char *path) {
+    GDir *directory = g_file_test(path, G_FILE_TEST_IS_SYMLINK) ? NULL : g_dir_open(path, 0, NULL);
+    guint files = 0;
+    if (directory == NULL) {
+        g_assert_cmpint(g_unlink(path), ==, 0);
+        return 1;
+    }
+    for (const char *name; (name = g_dir_read_name(directory)) != NULL;) {
+        char *within = g_build_filename(path, name, NULL);
+        files += remove_tree(within);
+        g_free(within);
+    }
+    g_dir_close(directory);
+    g_assert_cmpint(g_rmdir(path), ==, 0);
+    return files;
 }

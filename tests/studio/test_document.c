@@ -271,7 +271,7 @@ static void test_unchanged_save(void) {
         g_dir_close(dir);
         g_free(folder);
     }
-    g_rmdir(saved);
+    remove_tree(saved); // with meshes that were taken along
     g_free(saved);
 }
 

@@ -6,7 +6,8 @@ import sys
 import studio_driver as driver
 from driven_plant import (
     test_curve, test_escape, test_flower, test_hand, test_keys, test_link, test_lsystem,
-    test_material, test_own_wind, test_patch, test_preset, test_repeat, test_slider, test_wind)
+    test_material, test_own_wind, test_patch, test_preset, test_preset_files, test_repeat,
+    test_slider, test_wind)
 from driven_run import PICTURES, Run, SOURCE
 from driven_scene import (
     test_arrange, test_export_changed, test_export_one, test_grove, test_lamps, test_levels,
@@ -138,11 +139,12 @@ def test_killed(run):
 
 
 TESTS = [
-    test_welcome, test_repeat, test_examples, test_broken, test_lsystem, test_grove,
-    test_levels, test_arrange, test_rows, test_export_changed, test_export_one, test_light,
-    test_lamps, test_patch, test_own_wind, test_sketch, test_device, test_flower, test_link, test_escape, test_preset,
-    test_slider, test_material, test_keys, test_wind, test_curve, test_view, test_hand,
-    test_mistake, test_undo, test_save, test_export, test_dialogs, test_killed]
+    test_welcome, test_repeat, test_examples, test_broken, test_lsystem, test_preset_files,
+    test_grove, test_levels, test_arrange, test_rows, test_export_changed, test_export_one,
+    test_light, test_lamps, test_patch, test_own_wind, test_sketch, test_device, test_flower,
+    test_link, test_escape, test_preset, test_slider, test_material, test_keys, test_wind,
+    test_curve, test_view, test_hand, test_mistake, test_undo, test_save, test_export,
+    test_dialogs, test_killed]
 
 
 def main():

@@ -3,8 +3,6 @@
 #include "frond/simulation.h"
 #include "studio/model/profile.h"
 
-#include <glib/gstdio.h>
-
 #define GROVE                                                                                      \
     "<frond version='1'><plant id='tree' seed='3'><species/></plant><scene><growth steps='6'/>"    \
     "<place plant='tree'/><row plants='tree' spacing='2'>2,0,0 6,0,0</row></scene></frond>"
@@ -21,15 +19,7 @@ static char *new_folder(void) {
 
 // Removes a folder with what was written; returns how many files that were.
 static guint drop_folder(char *folder) {
-    GDir *written = g_dir_open(folder, 0, NULL);
-    guint files = 0;
-    for (const char *name; (name = g_dir_read_name(written)) != NULL; files++) {
-        char *file = g_build_filename(folder, name, NULL);
-        g_assert_cmpint(g_unlink(file), ==, 0);
-        g_free(file);
-    }
-    g_dir_close(written);
-    g_assert_cmpint(g_rmdir(folder), ==, 0);
+    guint files = remove_tree(folder);
     g_free(folder);
     return files;
 }

@@ -59,11 +59,11 @@ static uint64_t instances_of(const char *text) {
 
 static void test_cut(void) {
     StudioDocument *document = document_of(BUSH);
-    char *text = studio_subgraph_text(document, first_plant(document), "twig", "red twig", NULL);
+    char *text = studio_subgraph_text(document, first_plant(document), "twig", "red twig");
     g_assert_cmpstr(text, ==, CUT);
     g_assert_cmpuint(instances_of(text), >=, 2);
     g_free(text);
-    g_assert_null(studio_subgraph_text(document, first_plant(document), "elm", "elm", NULL));
+    g_assert_null(studio_subgraph_text(document, first_plant(document), "elm", "elm"));
     studio_document_free(document);
 }
 
@@ -78,7 +78,7 @@ static void test_cut_presets(void) {
         for (uint32_t c = 0; c < fr_contents_count(contents); c++) {
             if (fr_contents_at(contents, c)->component >= 0) {
                 const char *id = fr_contents_at(contents, c)->id;
-                char *text = studio_subgraph_text(document, plant, id, "1 part", NULL);
+                char *text = studio_subgraph_text(document, plant, id, "1 part");
                 FrContext context = fr_context_default();
                 context.diags = fr_diags_new();
                 FrSource *source = fr_source_new(id, text, strlen(text));
@@ -94,18 +94,6 @@ static void test_cut_presets(void) {
         studio_document_free(document);
         g_free(name);
     }
-}
-
-static void test_files(void) {
-    static const char pictured[] =
-        "<frond version=\"1\"><material id=\"m\" picture=\"bark.png\"/><plant id=\"p\"><pgraph>"
-        "<horn id=\"h\" material=\"m\"/></pgraph></plant></frond>";
-    StudioDocument *document = document_of(pictured);
-    char *refusal;
-    g_assert_null(studio_subgraph_text(document, first_plant(document), "h", "x", &refusal));
-    g_assert_cmpstr(refusal, ==, "m needs the file bark.png, which a preset cannot keep");
-    g_free(refusal);
-    studio_document_free(document);
 }
 
 static void test_insert(void) {
@@ -214,8 +202,8 @@ static void test_keep(void) {
     GPtrArray *none = fr_presets_list(folder);
     g_assert_cmpuint(none->len, ==, 0);
     g_ptr_array_unref(none);
-    g_assert_cmpint(studio_presets_save(folder, "red twig", CUT, NULL), ==, FR_OK);
-    g_assert_cmpint(studio_presets_save(folder, "bush", BUSH, NULL), ==, FR_OK);
+    g_assert_cmpint(studio_presets_save(folder, "red twig", CUT, ".", NULL), ==, FR_OK);
+    g_assert_cmpint(studio_presets_save(folder, "bush", BUSH, ".", NULL), ==, FR_OK);
     GPtrArray *two = fr_presets_list(folder);
     g_assert_cmpuint(two->len, ==, 2);
     g_assert_cmpstr(g_ptr_array_index(two, 0), ==, "bush");
@@ -237,8 +225,9 @@ static void test_keep(void) {
 static void test_keep_wrong(void) {
     char *folder = new_folder();
     FrDiags *diags = fr_diags_new();
-    g_assert_cmpint(studio_presets_save(folder, "x", "<frond version=\"1\"><oops/></frond>", diags),
-                    ==, FR_ERR_DOCUMENT);
+    g_assert_cmpint(
+        studio_presets_save(folder, "x", "<frond version=\"1\"><oops/></frond>", ".", diags), ==,
+        FR_ERR_DOCUMENT);
     g_assert_cmpuint(fr_diags_error_count(diags), >, 0);
     g_assert_false(g_file_test(folder, G_FILE_TEST_EXISTS));
     fr_diags_free(diags);
@@ -260,14 +249,14 @@ static void test_names(void) {
 static void test_draw(void) {
     char *folder = new_folder();
     FrContext context = fr_context_default();
-    g_assert_cmpint(studio_presets_save(folder, "twig", CUT, NULL), ==, FR_OK);
+    g_assert_cmpint(studio_presets_save(folder, "twig", CUT, ".", NULL), ==, FR_OK);
     g_assert_cmpint(studio_presets_draw(folder, "twig", &context), ==, FR_OK);
     char *file = fr_presets_file(folder, "twig", ".png"), *bytes;
     gsize size;
     g_assert_true(g_file_get_contents(file, &bytes, &size, NULL));
     g_assert_cmpint(memcmp(bytes, "\x89PNG", 4), ==, 0);
     g_free(bytes);
-    g_assert_cmpint(studio_presets_save(folder, "twig", BUSH, NULL), ==, FR_OK);
+    g_assert_cmpint(studio_presets_save(folder, "twig", BUSH, ".", NULL), ==, FR_OK);
     g_assert_false(g_file_test(file, G_FILE_TEST_EXISTS)); // it shows another plant
     g_assert_true(studio_presets_remove(folder, "twig"));
     g_free(file);
@@ -276,7 +265,7 @@ static void test_draw(void) {
 
 static void test_problem(void) {
     char *folder = new_folder(), *file = fr_presets_file(folder, "twig", ".frond");
-    g_assert_cmpint(studio_presets_save(folder, "twig", CUT, NULL), ==, FR_OK);
+    g_assert_cmpint(studio_presets_save(folder, "twig", CUT, ".", NULL), ==, FR_OK);
     g_assert_null(studio_presets_problem(file));
     g_assert_true(
         g_file_set_contents(file, "<frond version='1'>\n  <plan id='p'/>\n</frond>\n", -1, NULL));
@@ -295,7 +284,6 @@ int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/studio/presets/a subgraph is cut out with what it uses alone", test_cut);
     g_test_add_func("/studio/presets/each part of the presets stands alone", test_cut_presets);
-    g_test_add_func("/studio/presets/what needs a file is not kept", test_files);
     g_test_add_func("/studio/presets/inserting is one step and uses what is there", test_insert);
     g_test_add_func("/studio/presets/names that clash get new ones", test_insert_clash);
     g_test_add_func("/studio/presets/all that stands on a camera is linked", test_insert_shipped);

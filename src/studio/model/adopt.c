@@ -86,3 +86,32 @@ bool studio_adopt(StudioDocument *document, FrSource *from, const char *plant, c
     fr_contents_free(theirs);
     return *id != NULL;
 }
+
+GHashTable *studio_adopt_elements(const FrContents *from) {
+    GHashTable *elements = g_hash_table_new(NULL, NULL);
+    for (uint32_t i = fr_contents_at(from, 0)->first; i != FR_NONE;
+         i = fr_contents_at(from, i)->next) {
+        if (studio_tag_is_top(studio_tag_of(from, i))) {
+            g_hash_table_add(elements, GUINT_TO_POINTER(i));
+        }
+    }
+    return elements;
+}
+
+StudioCarried studio_bring(const StudioDocument *document, const FrContents *theirs,
+                           const char *folder, GHashTable *wanted) {
+    if (!studio_names_files(theirs, wanted)) {
+        return (StudioCarried){fr_source_ref(fr_contents_source(theirs)), NULL,
+                               g_ptr_array_new_with_free_func(g_free)};
+    }
+    if (studio_document_path(document) == NULL) {
+        return (StudioCarried){
+            NULL, g_strdup("Save the document first: its pictures and meshes are kept beside it"),
+            g_ptr_array_new_with_free_func(g_free)};
+    }
+    return studio_carry(theirs, &(StudioCarry){.from = folder,
+                                               .is_inside = true,
+                                               .to = studio_document_folder(document),
+                                               .prefix = "",
+                                               .wanted = wanted});
+}

@@ -208,21 +208,6 @@ uint32_t studio_count_users(const FrContents *contents, uint32_t element) {
     return count;
 }
 
-char *studio_names_file(const FrContents *contents, uint32_t element, char **attribute) {
-    static const char *const rows[] = {"picture", "normal-map",   "roughness-map", "file",
-                                       "view",    "density-file", "envelope-file"};
-    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
-        char *value = fr_contents_get(contents, element, rows[i]);
-        if (value != NULL && *value != '\0') {
-            *attribute = g_strdup(rows[i]);
-            return value;
-        }
-        g_free(value);
-    }
-    *attribute = NULL;
-    return NULL;
-}
-
 // ---- new names ---------------------------------------------------------------------------------
 
 void studio_names_init(StudioNames *names, uint32_t plant) {

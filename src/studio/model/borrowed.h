@@ -52,5 +52,3 @@ void studio_add_used(const FrContents *contents, uint32_t plant, uint32_t elemen
 uint32_t studio_count_users(const FrContents *contents, uint32_t element);
 /// The contents with the new names in them: their elements have the same numbers. NULL: broken.
 FrContents *studio_renamed(const FrContents *contents, const StudioNames *names);
-/// An attribute that names a file, and what it names (free both with g_free()); NULL: it has none.
-char *studio_names_file(const FrContents *contents, uint32_t element, char **attribute);

@@ -1,6 +1,7 @@
 #include "studio/model/document.h"
 
 #include "frond/document.h"
+#include "studio/model/carry.h"
 #include "studio/model/history.h"
 
 #include <glib/gstdio.h>
@@ -308,6 +309,20 @@ static bool is_changed_elsewhere(const StudioDocument *document) {
     return is_other;
 }
 
+// The pictures and meshes that a document names go with it into another folder: adds to `made` what
+// is made there. Returns the name of one that stays behind, to be freed with g_free(), or NULL.
+static char *take_files_along(const StudioDocument *document, const char *path, GPtrArray *made) {
+    char *own = g_canonicalize_filename(path, NULL), *to = g_path_get_dirname(own);
+    char *from = g_canonicalize_filename(document->folder, NULL);
+    char *left = document->contents == NULL || strcmp(from, to) == 0
+                     ? NULL
+                     : studio_carry_along(document->contents, from, to, made);
+    g_free(from);
+    g_free(to);
+    g_free(own);
+    return left;
+}
+
 FrStatus studio_document_save(StudioDocument *document, const char *path, FrDiags *diags) {
     const char *to = path == NULL ? document->path : path;
     FR_ASSERT(to != NULL);
@@ -320,9 +335,19 @@ FrStatus studio_document_save(StudioDocument *document, const char *path, FrDiag
                      document->name);
         return FR_ERR_MACHINE;
     }
+    bool is_moved = g_strcmp0(to, document->path) != 0;
+    GPtrArray *made = g_ptr_array_new_with_free_func(g_free);
+    char *left = is_moved ? take_files_along(document, to, made) : NULL;
     FrStatus status = fr_contents_save(text, size, to, diags);
+    if (status != FR_OK) {
+        studio_remove_made(made);
+    } else if (left != NULL) {
+        fr_diags_add(diags, FR_WARNING, "file-left", (FrSpan){0},
+                     "its file %s could not be taken along", left);
+    }
+    g_ptr_array_unref(made);
+    g_free(left);
     if (status == FR_OK) {
-        bool is_moved = g_strcmp0(to, document->path) != 0;
         if (is_moved) {
             adopt_path(document, to);
             follow_text(document); // the files it names may be others there

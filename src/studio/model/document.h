@@ -72,7 +72,9 @@ uint32_t studio_document_steps(const StudioDocument *document);
 
 bool studio_document_is_saved(const StudioDocument *document);
 /// Writes beside `path`, flushes, renames; `path` NULL: to its own file, unless someone else has
-/// written that since (FR_ERR_MACHINE). Later it has that file.
+/// written that since (FR_ERR_MACHINE). Later it has that file. In another folder copies of the
+/// files that it names come with it, unless something is called so there; a warning tells what
+/// stays behind.
 FR_MUST_USE FrStatus studio_document_save(StudioDocument *document, const char *path,
                                           FrDiags *diags);
 /// The text is not what its file holds: it was recovered.

@@ -56,18 +56,6 @@ static void add_line(GString *out, const char *indent, const char *text) {
 
 // ---- taken out ---------------------------------------------------------------------------------
 
-static char *file_refusal(const FrContents *contents, uint32_t element) {
-    char *attribute, *file = studio_names_file(contents, element, &attribute), *refusal = NULL;
-    if (file != NULL) {
-        const FrContentsElement *at = fr_contents_at(contents, element);
-        refusal = g_strdup_printf("%s needs the file %s, which a preset cannot keep",
-                                  at->id != NULL ? at->id : at->name, file);
-    }
-    g_free(attribute);
-    g_free(file);
-    return refusal;
-}
-
 // The material that a component without one of its own takes from what it grows on. Free with
 // g_free(); NULL: none.
 static char *inherited_material(const FrContents *contents, uint32_t graph, uint32_t component,
@@ -236,25 +224,11 @@ static void find_used(Cut *cut) {
     g_free(material);
 }
 
-static char *refusal_of(GHashTable *set, const FrContents *contents) {
-    GHashTableIter all;
-    gpointer element;
-    char *refusal = NULL;
-    g_hash_table_iter_init(&all, set);
-    while (refusal == NULL && g_hash_table_iter_next(&all, &element, NULL)) {
-        refusal = file_refusal(contents, GPOINTER_TO_UINT(element));
-    }
-    return refusal;
-}
-
 char *studio_subgraph_text(const StudioDocument *document, uint32_t plant, const char *id,
-                           const char *name, char **refusal) {
+                           const char *name) {
     const FrContents *contents = studio_document_contents(document);
     uint32_t graph = studio_document_is_broken(document) ? FR_NONE : graph_of(contents, plant);
     uint32_t root = graph == FR_NONE ? FR_NONE : fr_contents_find(contents, graph, id);
-    if (refusal != NULL) {
-        *refusal = NULL;
-    }
     if (root == FR_NONE || fr_contents_at(contents, root)->component < 0) {
         return NULL;
     }
@@ -262,16 +236,9 @@ char *studio_subgraph_text(const StudioDocument *document, uint32_t plant, const
         contents, plant, graph, root, g_hash_table_new(NULL, NULL), g_hash_table_new(NULL, NULL)};
     add_beneath(contents, graph, root, cut.components);
     find_used(&cut);
-    char *reason = refusal_of(cut.components, contents);
-    reason = reason != NULL ? reason : refusal_of(cut.used, contents);
-    char *text = reason == NULL ? write_cut(&cut, name) : NULL;
+    char *text = write_cut(&cut, name);
     g_hash_table_unref(cut.components);
     g_hash_table_unref(cut.used);
-    if (refusal != NULL) {
-        *refusal = reason;
-    } else {
-        g_free(reason);
-    }
     return text;
 }
 
@@ -446,6 +413,16 @@ static const char *why_not(const FrContents *theirs) {
     bool is_empty = roots->len == 0;
     g_array_unref(roots);
     return is_empty ? "Its graph has no components" : NULL;
+}
+
+GHashTable *studio_subgraph_elements(const FrContents *from) {
+    uint32_t plant = fr_contents_child(from, 0, "plant");
+    GHashTable *elements =
+        why_not(from) == NULL ? used_by(from, plant) : g_hash_table_new(NULL, NULL);
+    if (why_not(from) == NULL) {
+        g_hash_table_add(elements, GUINT_TO_POINTER(graph_of(from, plant)));
+    }
+    return elements;
 }
 
 static FrContents *read_silently(FrSource *from) {
