@@ -21,8 +21,12 @@ FR_API void fr_lighting_widen(FrLighting *lighting, const FrScene *scene, const 
 /// a changed plant must be a new one. Plants of the scene that are NULL are not there.
 FR_API FR_MUST_USE FrStatus fr_lighting_update(FrLighting *lighting, const FrScene *scene,
                                                const FrContext *context);
-/// Tells that plants seen so far may be freed before the next update: all are meshed anew then.
-FR_API void fr_lighting_detach(FrLighting *lighting);
+/// The box that suns and skies shine on so far, lowest and highest corner.
+FR_API void fr_lighting_room(const FrLighting *lighting, vec3s room[2]);
+FR_API void fr_lighting_set_room(FrLighting *lighting, const vec3s room[2]);
+/// Tells that these plants (FrPlant *; NULL: all) are freed before the next update: what stands in
+/// their place is meshed anew, even where it has the address of one of them.
+FR_API void fr_lighting_detach(FrLighting *lighting, const GPtrArray *plants);
 /// Answers for points of the world. fr_lighting_update() came first.
 FR_API FR_MUST_USE FrStatus fr_lighting_query(FrLighting *lighting, const vec3s *points,
                                               size_t count, const FrContext *context,

@@ -198,6 +198,10 @@ FR_API FR_MUST_USE FrStatus fr_lderivation_plant(FrLderivation *derivation,
 /// Draws the string as it is: open symbols stay open until fr_lderivation_ask().
 FR_API FR_MUST_USE FrStatus fr_lderivation_draw(FrLderivation *derivation, const FrContext *context,
                                                 FrPlant **plant, FrLdrawn *drawn);
+/// The same for who looks on while it grows: variables and random numbers are then as before, so
+/// the derivation goes on as if nobody had looked.
+FR_API FR_MUST_USE FrStatus fr_lderivation_look(FrLderivation *derivation, const FrContext *context,
+                                                FrPlant **plant, FrLdrawn *drawn);
 
 /// Where an internode or an organ comes from.
 typedef struct FrLorigin {

@@ -22,14 +22,17 @@ FR_API FR_MUST_USE FrStatus fr_simulation_new(const FrDocument *document, int64_
 FR_API void fr_simulation_free(FrSimulation *simulation);
 /// True if any plant grows bud by bud.
 FR_API bool fr_simulation_is_growing(const FrSimulation *simulation);
-/// One step of everything. FR_CANCELLED and errors leave the plants as they were.
+/// One step of everything. FR_CANCELLED and errors leave the plants as they were, buds and
+/// L-systems alike. Where nothing has a step left it does nothing.
 FR_API FR_MUST_USE FrStatus fr_simulation_step(FrSimulation *simulation, const FrContext *context);
-/// Takes the last step back; false if there is none to take. Plants that are L-systems stay.
+/// Takes the last step back, of buds, particles and L-systems; false if there is none to take.
+/// L-systems are derived again from what they have been answered. Changes of the document stay.
 FR_API bool fr_simulation_undo(FrSimulation *simulation);
 /// Goes on with another document, or with the same one after changes of it: species, world,
 /// obstacles and particles change for what will grow; wood stays as it has grown. What is placed
-/// anew begins as a seed; what has been placed stays. `<growth cell>` and how many species there
-/// are must be as they were, else FR_ERR_DOCUMENT and nothing has changed.
+/// anew begins as a seed; what has been placed stays. An L-system goes on if the changed one comes
+/// to where it stands by the same answers, else it begins at its axiom. `<growth cell>` and how
+/// many species there are must be as they were, else FR_ERR_DOCUMENT and nothing has changed.
 FR_API FR_MUST_USE FrStatus fr_simulation_change(FrSimulation *simulation,
                                                  const FrDocument *document,
                                                  const FrContext *context);
@@ -39,7 +42,8 @@ FR_API FrGrowthStats fr_simulation_stats(const FrSimulation *simulation);
 FR_API const FrGrowth *fr_simulation_growth(const FrSimulation *simulation);
 /// How many steps the document asks for.
 FR_API uint64_t fr_simulation_step_count(const FrSimulation *simulation);
-/// The scene as it stands now, owned by the simulation until its next call.
+/// The scene as it stands now, owned by the simulation until its next call. Looking changes
+/// nothing.
 FR_API FR_MUST_USE FrStatus fr_simulation_scene(FrSimulation *simulation, const FrContext *context,
                                                 const FrScene **scene);
 

@@ -295,33 +295,54 @@ static bool count_module(void *data, const uint32_t *module, uint64_t origin) {
     return ++*(uint64_t *)data < UINT64_MAX;
 }
 
+/// What a homomorphism may change.
+typedef struct Kept {
+    FrLrandom random;
+    GPtrArray *variables; ///< double *, by instance; NULL
+} Kept;
+
+static Kept keep(const FrLderivation *derivation) {
+    Kept kept = {derivation->machine.random, g_ptr_array_new_with_free_func(g_free)};
+    for (guint i = 0; i < derivation->instances->len; i++) {
+        const FrLinstance *instance = g_ptr_array_index(derivation->instances, i);
+        g_ptr_array_add(kept.variables,
+                        instance == NULL ? NULL
+                                         : g_memdup2(instance->variables,
+                                                     instance->unit->variables * sizeof(double)));
+    }
+    return kept;
+}
+
+static void put_back(FrLderivation *derivation, Kept *kept) {
+    for (guint i = 0; i < kept->variables->len; i++) {
+        FrLinstance *instance = g_ptr_array_index(derivation->instances, i);
+        const double *variables = g_ptr_array_index(kept->variables, i);
+        if (instance != NULL && variables != NULL) {
+            memcpy(instance->variables, variables, instance->unit->variables * sizeof(double));
+        }
+    }
+    g_ptr_array_unref(kept->variables);
+    derivation->machine.random = kept->random;
+}
+
 FrStatus fr_lderivation_count(FrLderivation *derivation, const FrContext *context,
                               uint64_t *modules) {
     *modules = fr_lstring_count(derivation->string);
     if (!has_homomorphism(derivation->system, false)) {
         return FR_OK;
     }
-    // What the homomorphism changes is put back: who counts must not decide what is drawn.
-    FrLrandom random = derivation->machine.random;
-    GPtrArray *kept = g_ptr_array_new_with_free_func(g_free);
-    for (guint i = 0; i < derivation->instances->len; i++) {
-        const FrLinstance *instance = g_ptr_array_index(derivation->instances, i);
-        g_ptr_array_add(
-            kept, instance == NULL
-                      ? NULL
-                      : g_memdup2(instance->variables, instance->unit->variables * sizeof(double)));
-    }
+    Kept kept = keep(derivation); // who counts must not decide what is drawn
     *modules = 0;
     FrStatus status = fr_lderive_interpret(derivation, count_module, NULL, modules, context);
-    for (guint i = 0; i < kept->len; i++) {
-        FrLinstance *instance = g_ptr_array_index(derivation->instances, i);
-        if (instance != NULL && g_ptr_array_index(kept, i) != NULL) {
-            memcpy(instance->variables, g_ptr_array_index(kept, i),
-                   instance->unit->variables * sizeof(double));
-        }
-    }
-    g_ptr_array_unref(kept);
-    derivation->machine.random = random;
+    put_back(derivation, &kept);
+    return status;
+}
+
+FrStatus fr_lderivation_look(FrLderivation *derivation, const FrContext *context, FrPlant **plant,
+                             FrLdrawn *drawn) {
+    Kept kept = keep(derivation);
+    FrStatus status = fr_lderivation_draw(derivation, context, plant, drawn);
+    put_back(derivation, &kept);
     return status;
 }
 

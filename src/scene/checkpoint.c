@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define MAGIC "FrondGrown2"
+#define MAGIC "FrondGrown3"
 
 /// What stands at the beginning.
 typedef struct Head {

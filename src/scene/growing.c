@@ -21,6 +21,7 @@ void fr_sprout_free(void *data) {
     FrSprout *sprout = data;
     fr_lderivation_free(sprout->derivation);
     fr_answers_clear(&sprout->answers);
+    g_free(sprout->id);
     g_free(sprout);
 }
 
@@ -60,6 +61,7 @@ FrStatus fr_growing_add(FrGrowing *growing, FrScene *scene, const FrPlantDef *de
     }
     FrSprout *sprout = g_new0(FrSprout, 1);
     *sprout = (FrSprout){.definition = definition,
+                         .id = g_strdup(definition->id),
                          .derivation = derivation,
                          .stand = *stand,
                          .plant = scene->plants->len,
@@ -82,8 +84,7 @@ static bool is_growing(const FrGrowing *growing, const FrSprout *sprout) {
            !fr_lderivation_is_stopped(sprout->derivation);
 }
 
-/// Draws all plants as they are now; `old` receives those that were there before.
-static FrStatus draw_all(FrGrowing *growing, FrScene *scene, const FrContext *context,
+FrStatus fr_growing_draw(FrGrowing *growing, FrScene *scene, const FrContext *context,
                          GPtrArray *old) {
     uint64_t bytes = 0;
     for (guint i = 0; i < scene->plants->len; i++) {
@@ -95,7 +96,7 @@ static FrStatus draw_all(FrGrowing *growing, FrScene *scene, const FrContext *co
         const FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
         FrScenePlant *plant = &g_array_index(scene->plants, FrScenePlant, sprout->plant);
         FrPlant *drawn;
-        status = fr_lderivation_draw(sprout->derivation, context, &drawn, &plant->drawn);
+        status = fr_lderivation_look(sprout->derivation, context, &drawn, &plant->drawn);
         if (status == FR_OK) {
             g_free(drawn->name);
             drawn->name = g_strdup(sprout->definition->id);
@@ -117,7 +118,7 @@ FrStatus fr_growing_exchange(const FrGrowing *growing, FrScene *scene, const FrC
     for (guint i = 0; i < growing->sprouts->len && is_first && status == FR_OK; i++) {
         const FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
         FrPlant *drawn;
-        status = fr_lderivation_draw(sprout->derivation, context, &drawn, NULL);
+        status = fr_lderivation_look(sprout->derivation, context, &drawn, NULL);
         if (status == FR_OK) {
             g_ptr_array_add(other, drawn);
         }
@@ -201,7 +202,7 @@ FrStatus fr_growing_step(FrGrowing *growing, FrScene *scene, const FrContext *co
     double began = (double)g_get_monotonic_time() * 1e-6;
     growing->queries = 0;
     GPtrArray *old = g_ptr_array_new();
-    FrStatus status = draw_all(growing, scene, context, old);
+    FrStatus status = fr_growing_draw(growing, scene, context, old);
     double drawn = (double)g_get_monotonic_time() * 1e-6;
     if (status == FR_OK && growing->lighting != NULL) {
         status = fr_lighting_update(growing->lighting, scene, context);
@@ -256,7 +257,7 @@ FrStatus fr_growing_finish(FrGrowing *growing, FrScene *scene, const FrContext *
         return FR_OK;
     }
     GPtrArray *old = g_ptr_array_new();
-    FrStatus status = draw_all(growing, scene, context, old);
+    FrStatus status = fr_growing_draw(growing, scene, context, old);
     for (guint i = 0; i < old->len; i++) {
         fr_plant_free(g_ptr_array_index(old, i));
     }
@@ -272,15 +273,19 @@ FrStatus fr_growing_finish(FrGrowing *growing, FrScene *scene, const FrContext *
     return status == FR_OK ? show(growing, false) : status;
 }
 
+void fr_growing_detach(FrGrowing *growing, const GPtrArray *plants) {
+    if (growing->lighting != NULL) {
+        fr_lighting_detach(growing->lighting, plants);
+    }
+}
+
 bool fr_growing_go_on(FrGrowing *growing, const FrGrowing *next) {
     // Who may make no step has got no room to ask for.
     if (growing->steps == 0 || growing->done > next->steps) {
         return false;
     }
     growing->steps = next->steps;
-    if (growing->lighting != NULL) {
-        fr_lighting_detach(growing->lighting);
-    }
+    fr_growing_detach(growing, NULL);
     return true;
 }
 

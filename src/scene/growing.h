@@ -45,6 +45,24 @@ FR_MUST_USE FrStatus fr_growing_step(FrGrowing *growing, FrScene *scene, const F
 /// are exchanged with `other` (FrPlant *), which is filled if it is empty.
 FR_MUST_USE FrStatus fr_growing_exchange(const FrGrowing *growing, FrScene *scene,
                                          const FrContext *context, GPtrArray *other);
+/// Tells that these plants of the scene (FrPlant *; NULL: all) are freed.
+void fr_growing_detach(FrGrowing *growing, const GPtrArray *plants);
+/// The scene's plants as they have been derived; `old` receives those that were there before.
+FR_MUST_USE FrStatus fr_growing_draw(FrGrowing *growing, FrScene *scene, const FrContext *context,
+                                     GPtrArray *old);
+/// Where the plants are, to go back to.
+typedef struct FrGrowingMark FrGrowingMark;
+FrGrowingMark *fr_growing_mark(const FrGrowing *growing);
+void fr_growing_mark_free(FrGrowingMark *mark);
+/// Goes back, also from within a step that has failed. The limits must be those of then at least.
+void fr_growing_return(FrGrowing *growing, const FrGrowingMark *mark, const FrContext *context);
+/// Lets plants that have begun in a changed document go on where `old` has them: those that stand
+/// where they stood and are the same L-system as far as they have grown; others stay at their
+/// axiom. Returns which of the old ones each is, FR_NONE if none, to be freed with g_free().
+uint32_t *fr_growing_inherit(FrGrowing *growing, const FrGrowing *old, const FrContext *context);
+/// Makes a mark of the old plants one of those that go on.
+void fr_growing_mark_inherit(FrGrowingMark *mark, const FrGrowing *growing,
+                             const uint32_t *origins);
 /// All that has grown, appended.
 void fr_growing_save(const FrGrowing *growing, GByteArray *out);
 /// Takes up such a state. FR_ERR_DOCUMENT with a diagnostic if it is none of these plants; after a

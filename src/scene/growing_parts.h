@@ -9,6 +9,7 @@
 /// One plant.
 typedef struct FrSprout {
     const FrPlantDef *definition;
+    char *id; ///< of the definition, which may end before the plant does
     FrLderivation *derivation;
     FrStand stand;
     uint32_t plant; ///< of the scene
@@ -34,6 +35,10 @@ void fr_sprout_free(void *sprout);
 FR_MUST_USE FrStatus fr_growing_derive(const FrGrowing *growing, const FrPlantDef *definition,
                                        int64_t seed, const FrContext *context,
                                        FrLderivation **derivation);
+/// Derives a plant to a step, by its answers alone and with all of them. FR_ERR_DOCUMENT if they
+/// are others, or it does not come to `string` (NULL: to any).
+FR_MUST_USE FrStatus fr_growing_regrow(FrGrowing *growing, FrSprout *sprout, uint64_t step,
+                                       const FrDigest *string, const FrContext *context);
 /// Answers open symbols of the plant that asks, anew or as they were (FrEnvironment).
 FrStatus fr_growing_answer(void *growing, const FrLquery *queries, size_t count,
                            const FrContext *context);

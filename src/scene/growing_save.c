@@ -2,7 +2,14 @@
 /// has been answered. From that and its seed it is derived again.
 #include "scene/growing_parts.h"
 
+#include <math.h>
 #include <string.h>
+
+/// What stands before all plants.
+typedef struct GrowingHead {
+    uint64_t done, sprouts;
+    vec3s room[2]; ///< of the light
+} GrowingHead;
 
 /// What stands before the answers of a plant.
 typedef struct SproutHead {
@@ -11,8 +18,11 @@ typedef struct SproutHead {
 } SproutHead;
 
 void fr_growing_save(const FrGrowing *growing, GByteArray *out) {
-    const uint64_t head[2] = {growing->done, growing->sprouts->len};
-    g_byte_array_append(out, (const guint8 *)head, sizeof head);
+    GrowingHead head = {.done = growing->done, .sprouts = growing->sprouts->len};
+    if (growing->lighting != NULL) {
+        fr_lighting_room(growing->lighting, head.room);
+    }
+    g_byte_array_append(out, (const guint8 *)&head, sizeof head);
     for (guint i = 0; i < growing->sprouts->len; i++) {
         const FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
         const GArray *words = sprout->answers.words;
@@ -36,22 +46,23 @@ static bool take(const uint8_t **at, size_t *left, void *into, size_t size) {
     return true;
 }
 
-/// Derives a plant to where it was.
-static FrStatus regrow(FrGrowing *growing, FrSprout *sprout, const SproutHead *head,
-                       const FrContext *context) {
+FrStatus fr_growing_regrow(FrGrowing *growing, FrSprout *sprout, uint64_t step,
+                           const FrDigest *string, const FrContext *context) {
     FrStatus status =
         fr_growing_derive(growing, sprout->definition, sprout->seed, context, &sprout->derivation);
     if (status != FR_OK) {
         return status;
     }
     growing->asking = sprout;
-    bool is_right = head->step <= fr_lderivation_length(sprout->derivation);
-    for (uint64_t i = 0; i < head->step && is_right && status == FR_OK; i++) {
+    bool is_right = step <= fr_lderivation_length(sprout->derivation);
+    for (uint64_t i = 0; i < step && is_right && status == FR_OK; i++) {
         status = fr_lderivation_run(sprout->derivation, 1, context);
         is_right = fr_lderivation_step(sprout->derivation) == i + 1;
     }
-    is_right = is_right && sprout->answers.read == sprout->answers.words->len &&
-               fr_lstring_digest(fr_lderivation_string(sprout->derivation)) == head->string;
+    is_right = is_right && sprout->answers.read == sprout->answers.words->len;
+    is_right =
+        is_right &&
+        (string == NULL || fr_lstring_digest(fr_lderivation_string(sprout->derivation)) == *string);
     return status == FR_OK && !is_right ? FR_ERR_DOCUMENT : status;
 }
 
@@ -60,6 +71,7 @@ static FrStatus take_sprout(FrGrowing *growing, const FrSprout *old, const uint8
                             size_t *left, const FrContext *context, FrSprout *sprout) {
     SproutHead head;
     *sprout = *old;
+    sprout->id = g_strdup(old->id);
     sprout->derivation = NULL;
     sprout->answers = fr_answers_new();
     if (!take(at, left, &head, sizeof head) || head.words > *left / sizeof(uint32_t)) {
@@ -67,15 +79,25 @@ static FrStatus take_sprout(FrGrowing *growing, const FrSprout *old, const uint8
     }
     g_array_set_size(sprout->answers.words, (guint)head.words);
     bool is_there = take(at, left, sprout->answers.words->data, head.words * sizeof(uint32_t));
-    return is_there ? regrow(growing, sprout, &head, context) : FR_ERR_DOCUMENT;
+    return is_there ? fr_growing_regrow(growing, sprout, head.step, &head.string, context)
+                    : FR_ERR_DOCUMENT;
+}
+
+static bool is_room(const vec3s room[2]) {
+    bool is_right = true;
+    for (int axis = 0; axis < 3; axis++) {
+        is_right &= isfinite(room[0].raw[axis]) && isfinite(room[1].raw[axis]) &&
+                    room[0].raw[axis] <= room[1].raw[axis];
+    }
+    return is_right;
 }
 
 FrStatus fr_growing_restore(FrGrowing *growing, const void *bytes, size_t size, FrSpan span,
                             const FrContext *context) {
     const uint8_t *at = bytes;
-    uint64_t head[2];
-    bool has_head = take(&at, &size, head, sizeof head) && head[0] <= fr_growing_longest(growing) &&
-                    head[1] == growing->sprouts->len;
+    GrowingHead head;
+    bool has_head = take(&at, &size, &head, sizeof head) && head.done <= UINT32_MAX &&
+                    head.sprouts == growing->sprouts->len && is_room(head.room);
     FrStatus status = has_head ? FR_OK : FR_ERR_DOCUMENT;
     GPtrArray *sprouts = g_ptr_array_new_with_free_func(fr_sprout_free);
     growing->is_regrowing = true;
@@ -91,7 +113,10 @@ FrStatus fr_growing_restore(FrGrowing *growing, const void *bytes, size_t size, 
     if (status == FR_OK) {
         GPtrArray *old = growing->sprouts;
         growing->sprouts = sprouts;
-        growing->done = head[0];
+        growing->done = head.done;
+        if (growing->lighting != NULL) {
+            fr_lighting_set_room(growing->lighting, head.room);
+        }
         sprouts = old;
     } else if (status == FR_ERR_DOCUMENT) {
         fr_diags_add(context->diags, FR_ERROR, "damaged-checkpoint", span,

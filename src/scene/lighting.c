@@ -264,10 +264,28 @@ FrStatus fr_lighting_update(FrLighting *lighting, const FrScene *scene, const Fr
     return status;
 }
 
-void fr_lighting_detach(FrLighting *lighting) {
-    for (guint i = 0; i < lighting->meshed->len; i++) {
-        g_array_index(lighting->meshed, Meshed, i).plant = NULL;
+void fr_lighting_detach(FrLighting *lighting, const GPtrArray *plants) {
+    GHashTable *freed = g_hash_table_new(NULL, NULL);
+    for (guint i = 0; plants != NULL && i < plants->len; i++) {
+        g_hash_table_add(freed, g_ptr_array_index(plants, i));
     }
+    for (guint i = 0; i < lighting->meshed->len; i++) {
+        Meshed *meshed = &g_array_index(lighting->meshed, Meshed, i);
+        if (plants == NULL || g_hash_table_contains(freed, meshed->plant)) {
+            meshed->plant = NULL;
+        }
+    }
+    g_hash_table_unref(freed);
+}
+
+void fr_lighting_room(const FrLighting *lighting, vec3s room[2]) {
+    room[0] = lighting->min;
+    room[1] = lighting->max;
+}
+
+void fr_lighting_set_room(FrLighting *lighting, const vec3s room[2]) {
+    lighting->min = room[0];
+    lighting->max = room[1];
 }
 
 FrStatus fr_lighting_query(FrLighting *lighting, const vec3s *points, size_t count,

@@ -394,6 +394,11 @@ static uint64_t steps_of(const FrDocument *document, const FrSceneHow *how) {
     return how->options.steps < 0 ? MIN(said, most) : most;
 }
 
+/// Steps that the document itself wants to be kept.
+static uint32_t said_history(const FrDocument *document) {
+    return (uint32_t)fr_document_growth(document)->params.history;
+}
+
 FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow *how, const FrContext *context,
                         FrSimulation *simulation) {
     const FrSceneOptions *options = &how->options;
@@ -427,6 +432,8 @@ FrStatus fr_scene_begin(const FrDocument *document, const FrSceneHow *how, const
                                  .growing = build.growing,
                                  .hills = build.hills,
                                  .steps = build.steps,
+                                 .most_back = MAX(how->history, said_history(document)),
+                                 .back = g_ptr_array_new_with_free_func(fr_simulation_forget),
                                  .seed = options->seed};
     if (status != FR_OK) {
         if (how->parts != NULL) {

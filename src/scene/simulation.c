@@ -5,7 +5,23 @@
 #include <math.h>
 #include <string.h>
 
+/// What a step is taken back to, besides what grows bud by bud.
+typedef struct FrBack {
+    FrGrowingMark *growing;
+    guint steps; ///< that are told
+    double light_seconds;
+} FrBack;
+
+void fr_simulation_forget(void *data) {
+    FrBack *back = data;
+    if (back != NULL) {
+        fr_growing_mark_free(back->growing);
+        g_free(back);
+    }
+}
+
 void fr_simulation_clear(FrSimulation *simulation) {
+    g_clear_pointer(&simulation->back, g_ptr_array_unref);
     fr_ecosystem_free(simulation->ecosystem);
     fr_growing_free(simulation->growing);
     fr_hills_free(simulation->hills);
@@ -46,10 +62,26 @@ static FrStatus renew(FrSimulation *simulation, const FrContext *context) {
     return status;
 }
 
+static bool is_mixed(const FrSimulation *simulation) {
+    return fr_simulation_is_growing(simulation) && fr_growing_is_any(simulation->growing);
+}
+
 FrStatus fr_simulation_take_up(FrSimulation *simulation, const FrContext *context) {
-    simulation->is_drawn = false;
-    bool is_mixed = fr_simulation_is_growing(simulation) && fr_growing_is_any(simulation->growing);
-    return is_mixed ? renew(simulation, context) : FR_OK;
+    simulation->is_drawn = simulation->is_shown = false;
+    if (!is_mixed(simulation)) {
+        return FR_OK;
+    }
+    // The state knows whether its world is new to it; standing it there is none of its changes.
+    FrGrowth *growth = fr_ecosystem_growth(simulation->ecosystem);
+    GBytes *state = fr_growth_save(growth);
+    FrStatus status = renew(simulation, context);
+    if (status == FR_OK) {
+        gsize size;
+        const void *data = g_bytes_get_data(state, &size);
+        status = fr_growth_restore(growth, data, size, (FrSpan){0}, context);
+    }
+    g_bytes_unref(state);
+    return status;
 }
 
 /// Plants that ask the scene see those that grow bud by bud, and these keep off them.
@@ -59,6 +91,7 @@ static FrStatus step_growing(FrSimulation *simulation, const FrContext *context)
     if (status == FR_OK) {
         status = fr_growing_step(simulation->growing, simulation->scene, context);
     }
+    simulation->is_shown = false;
     g_ptr_array_unref(old);
     if (status == FR_OK && fr_simulation_is_growing(simulation)) {
         status = renew(simulation, context);
@@ -66,7 +99,7 @@ static FrStatus step_growing(FrSimulation *simulation, const FrContext *context)
     return status;
 }
 
-FrStatus fr_simulation_step(FrSimulation *simulation, const FrContext *context) {
+static FrStatus step_all(FrSimulation *simulation, const FrContext *context) {
     FrStatus status = FR_OK;
     if (fr_simulation_is_growing(simulation)) {
         status = fr_ecosystem_step(simulation->ecosystem, simulation->scene, context);
@@ -115,7 +148,7 @@ static FrStatus run_step(FrSimulation *simulation, const FrSceneOptions *options
     bool is_growing =
         fr_simulation_is_growing(simulation) && fr_simulation_done(simulation) < simulation->steps;
     FrStatus status =
-        is_growing ? fr_simulation_step(simulation, context) : step_growing(simulation, context);
+        is_growing ? step_all(simulation, context) : step_growing(simulation, context);
     uint64_t step = MAX(fr_simulation_done(simulation), simulation->scene->steps->len);
     if (status == FR_OK && options->after_step != NULL) {
         status = options->after_step(options->data, simulation, context);
@@ -192,29 +225,108 @@ void fr_simulation_free(FrSimulation *simulation) {
     }
 }
 
+// ---- there and back ---------------------------------------------------------------------------
+
+static FrBack *look_back(const FrSimulation *simulation) {
+    FrBack *back = g_new(FrBack, 1);
+    *back = (FrBack){fr_growing_mark(simulation->growing), simulation->scene->steps->len,
+                     simulation->scene->light_seconds};
+    return back;
+}
+
+/// What has been possible before is possible again.
+static FrContext unlimited(void) {
+    FrContext context = fr_context_default();
+    memset(&context.limits, 0xFF, sizeof context.limits);
+    return context;
+}
+
+/// Takes back all but what grows bud by bud.
+static void go_back(FrSimulation *simulation, FrBack *back) {
+    FrContext context = unlimited();
+    fr_growing_return(simulation->growing, back->growing, &context);
+    g_array_set_size(simulation->scene->steps, back->steps);
+    simulation->scene->light_seconds = back->light_seconds;
+    simulation->is_drawn = simulation->is_shown = false;
+    fr_simulation_forget(back);
+}
+
+FrStatus fr_simulation_step(FrSimulation *simulation, const FrContext *context) {
+    FrGrowth *growth = fr_ecosystem_growth(simulation->ecosystem);
+    bool has_more = fr_growing_has_steps(simulation->growing);
+    if (growth == NULL && !has_more) {
+        return FR_OK;
+    }
+    // Buds have made their step when the L-systems make theirs, which may fail.
+    bool keeps = growth != NULL && has_more && simulation->most_back == 0;
+    GBytes *buds = keeps ? fr_growth_save(growth) : NULL;
+    uint64_t done = fr_simulation_done(simulation);
+    FrBack *back = look_back(simulation);
+    FrStatus status = step_all(simulation, context);
+    if (status == FR_OK) {
+        g_ptr_array_add(simulation->back, back);
+        if (simulation->back->len > simulation->most_back) {
+            g_ptr_array_remove_index(simulation->back, 0);
+        }
+    } else {
+        bool is_back = fr_simulation_done(simulation) == done;
+        if (!is_back && buds != NULL) {
+            gsize size;
+            const void *data = g_bytes_get_data(buds, &size);
+            is_back = fr_growth_restore(growth, data, size, (FrSpan){0}, context) == FR_OK;
+        } else if (!is_back) {
+            is_back = fr_growth_undo(growth);
+        }
+        FR_ASSERT(is_back);
+        go_back(simulation, back);
+    }
+    g_clear_pointer(&buds, g_bytes_unref);
+    return status;
+}
+
 bool fr_simulation_undo(FrSimulation *simulation) {
     FrGrowth *growth = fr_ecosystem_growth(simulation->ecosystem);
-    if (growth == NULL || !fr_growth_undo(growth)) {
+    if (simulation->back->len == 0 || (growth != NULL && !fr_growth_undo(growth))) {
         return false;
     }
-    simulation->is_drawn = false;
-    GArray *steps = simulation->scene->steps;
-    if (steps->len > 0) {
-        g_array_set_size(steps, steps->len - 1);
-    }
+    go_back(simulation, g_ptr_array_steal_index(simulation->back, simulation->back->len - 1));
+    FrContext context = unlimited();
+    FrStatus status = fr_simulation_take_up(simulation, &context);
+    FR_ASSERT(status == FR_OK);
     return true;
+}
+
+/// Lets the L-systems of the changed document go on, and the steps back with them.
+static void inherit(FrSimulation *next, FrSimulation *last, const FrContext *context) {
+    uint32_t *origins = fr_growing_inherit(next->growing, last->growing, context);
+    GPtrArray *empty = next->back;
+    next->back = last->back;
+    last->back = empty;
+    for (guint i = 0; i < next->back->len; i++) {
+        FrBack *back = g_ptr_array_index(next->back, i);
+        fr_growing_mark_inherit(back->growing, next->growing, origins);
+    }
+    g_free(origins);
+    if (is_mixed(next)) {
+        FrContext own = unlimited();
+        own.pool = context->pool;
+        FrStatus status = renew(next, &own);
+        FR_ASSERT(status == FR_OK);
+    }
 }
 
 FrStatus fr_simulation_change(FrSimulation *simulation, const FrDocument *document,
                               const FrContext *context) {
     const FrSceneHow how = {.options = {.seed = simulation->seed, .time = NAN, .steps = -1},
-                            .history = fr_ecosystem_history(simulation->ecosystem),
+                            .history = simulation->most_back,
                             .previous = fr_simulation_is_growing(simulation) ? simulation : NULL};
     FrSimulation next;
     FrStatus status = fr_scene_begin(document, &how, context, &next);
     if (status == FR_OK) {
         g_array_append_vals(next.scene->steps, simulation->scene->steps->data,
                             simulation->scene->steps->len);
+        next.scene->light_seconds += simulation->scene->light_seconds;
+        inherit(&next, simulation, context);
         fr_simulation_clear(simulation);
         *simulation = next;
     }
@@ -225,6 +337,11 @@ FrStatus fr_simulation_scene(FrSimulation *simulation, const FrContext *context,
                              const FrScene **scene) {
     GPtrArray *old = g_ptr_array_new_with_free_func(free_plant);
     FrStatus status = draw(simulation, context, old);
+    if (status == FR_OK && !simulation->is_shown) {
+        status = fr_growing_draw(simulation->growing, simulation->scene, context, old);
+        simulation->is_shown = status == FR_OK;
+    }
+    fr_growing_detach(simulation->growing, old);
     g_ptr_array_unref(old);
     *scene = status == FR_OK ? simulation->scene : NULL;
     return status;

@@ -15,8 +15,14 @@ struct FrSimulation {
     FrHills *hills;         ///< NULL
     uint64_t steps;         ///< that are asked for
     int64_t seed;
-    bool is_drawn; ///< the scene has the plants as they are now
+    uint32_t most_back; ///< steps that are kept to go back
+    GPtrArray *back;    ///< FrBack *, of before the last steps, the last one last
+    bool is_drawn;      ///< the scene has the plants that grow bud by bud as they are now …
+    bool is_shown;      ///< … and the L-systems
 };
+
+/// Frees one step back.
+void fr_simulation_forget(void *back);
 
 /// How a scene is begun.
 typedef struct FrSceneHow {
