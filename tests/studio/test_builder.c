@@ -2,6 +2,7 @@
 #include "building.h"
 #include "studio/model/place.h"
 
+#include <cglm/struct.h>
 #include <math.h>
 
 static StudioCount counted(const StudioBuilt *built, const char *component) {
@@ -77,20 +78,20 @@ static void test_leaves(Fixture *fixture, gconstpointer data) {
     }
     g_assert_cmpfloat(high - low, >, 0.9f * (highest - lowest));
     // What is drawn while it moves has wood, too, but little.
-    g_assert_nonnull(plant->coarse_wood);
-    g_assert_cmpuint(plant->coarse_wood->index_count, >, 3 * 1000);
-    g_assert_cmpuint(plant->coarse_wood->index_count, <, 3 * 60000);
+    g_assert_nonnull(plant->coarse_wood[0]);
+    g_assert_cmpuint(plant->coarse_wood[0]->index_count, >, 3 * 1000);
+    g_assert_cmpuint(plant->coarse_wood[0]->index_count, <, 3 * 60000);
     studio_builder_release(fixture->builder);
     // An edit of leaves leaves it as it is.
     studio_set(document,
                studio_place_find(studio_document_contents(document),
                                  "frond/plant:chestnut/pgraph/leaf:leaf"),
                "width", "0.06", false);
-    const FrMesh *wood = plant->coarse_wood;
+    const FrMesh *wood = plant->coarse_wood[0];
     request(fixture, document, NAN);
     built = await(fixture);
     plant = g_ptr_array_index(built->view->plants, 0);
-    g_assert_true(plant->coarse_wood == wood);
+    g_assert_true(plant->coarse_wood[0] == wood);
     studio_builder_release(fixture->builder);
     studio_document_free(document);
 }
@@ -132,6 +133,29 @@ static void test_ahead(Fixture *fixture, gconstpointer data) {
     studio_document_free(document);
 }
 
+static void test_extent(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    StudioDocument *document = open_example("examples/figure2.frond");
+    request(fixture, document, NAN);
+    const StudioView *view = await(fixture)->view;
+    const StudioPlant *plant = g_ptr_array_index(view->plants, 0);
+    FrSkinParams skin = fr_skin_default();
+    FrContext context = fr_context_default();
+    FrMesh *mesh;
+    const FrScenePlant *built = &g_array_index(view->scene->plants, FrScenePlant, 0);
+    g_assert_cmpint(fr_scene_mesh(built, &skin, FR_UP_Z, &context, &mesh), ==, FR_OK);
+    float farthest = 0;
+    for (uint64_t i = 0; i < mesh->vertex_count; i++) {
+        const float *at = mesh->vertices[i].position;
+        farthest = MAX(farthest, glms_vec3_distance((vec3s){{at[0], at[1], at[2]}}, plant->middle));
+    }
+    g_assert_cmpfloat(plant->radius, >=, farthest);
+    g_assert_cmpfloat(plant->radius, <, 1.6f * farthest);
+    fr_mesh_free(mesh);
+    studio_builder_release(fixture->builder);
+    studio_document_free(document);
+}
+
 static void test_stands(Fixture *fixture, gconstpointer data) {
     (void)data;
     static const char text[] =
@@ -151,9 +175,10 @@ static void test_stands(Fixture *fixture, gconstpointer data) {
         for (guint s = 0; s < view->scene->stands->len; s++) {
             uint32_t plant = g_array_index(view->scene->stands, FrStand, s).plant;
             const StudioPlant *seen = g_ptr_array_index(view->plants, plant);
-            g_assert_nonnull(seen->coarse_wood);
-            g_assert_cmpuint(seen->coarse_wood->index_count, >, 0);
-            indices[i] += seen->coarse_wood->index_count;
+            const FrMesh *wood = seen->coarse_wood[i == 0 ? 0 : STUDIO_COARSE_LEVELS - 1];
+            g_assert_nonnull(wood);
+            g_assert_cmpuint(wood->index_count, >, 0);
+            indices[i] += wood->index_count;
         }
         studio_document_free(document);
         g_free(some);
@@ -169,7 +194,7 @@ static void test_surfaces(Fixture *fixture, gconstpointer data) {
     const StudioBuilt *built = await(fixture);
     const StudioPlant *plant = g_ptr_array_index(built->view->plants, 0);
     g_assert_true(plant->is_rational);
-    g_assert_null(plant->coarse_wood);
+    g_assert_null(plant->coarse_wood[0]);
     FrContext context = fr_context_default();
     FrSkinParams skin = fr_skin_default();
     FrMesh *mesh;
@@ -366,6 +391,7 @@ int main(int argc, char **argv) {
         test_forget);
     ADD("/studio/builder/a document becomes a view with counts", test_builds);
     ADD("/studio/builder/the first leaves of a batch are spread over all", test_leaves);
+    ADD("/studio/builder/a ball holds all of a plant and little else", test_extent);
     ADD("/studio/builder/many plants that stand share what is drawn while the view moves",
         test_stands);
     ADD("/studio/builder/plants with surfaces are shown as surfaces", test_surfaces);

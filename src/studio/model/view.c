@@ -1,11 +1,20 @@
 #include "studio/model/view.h"
 
+#include "studio/model/extent.h"
+
 #include "material/texture.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { COARSE_LEVEL = 4, COARSE_SIDES = 8, COARSE_NODES = 10000, LEAST_COARSE_NODES = 32 };
+enum {
+    COARSE_LEVEL = 4,
+    COARSE_SIDES = 8,
+    COARSE_NODES = 10000, // of one plant
+    ALL_COARSE_NODES = 40000,
+    LEAST_COARSE_NODES = 32,
+    COARSER = 5, // times, from one level to the next
+};
 
 // ---- leaves ------------------------------------------------------------------------------------
 
@@ -70,8 +79,8 @@ static void fill_leaves(StudioPlant *view) {
         uint32_t key = key_of(plant, i);
         if (of_key[key] == 0) {
             uint32_t material = key % materials;
-            StudioBatch batch = {key / materials, material == materials - 1 ? FR_NONE : material, 0,
-                                 0};
+            StudioBatch batch = {.shape = key / materials,
+                                 .material = material == materials - 1 ? FR_NONE : material};
             g_array_append_val(view->batches, batch);
             of_key[key] = view->batches->len;
         }
@@ -196,7 +205,9 @@ static void shape_clear(gpointer shape) {
 static void plant_free(gpointer data) {
     StudioPlant *view = data;
     fr_mesh_free(view->foliage);
-    fr_mesh_free(view->coarse_wood);
+    for (int level = 0; level < STUDIO_COARSE_LEVELS; level++) {
+        fr_mesh_free(view->coarse_wood[level]);
+    }
     g_array_unref(view->leaves);
     g_array_unref(view->batches);
     g_array_unref(view->shapes);
@@ -244,17 +255,18 @@ static StudioPlant *plant_new(const FrScenePlant *built, const FrSkin *wood,
         add_shapes(view, context);
     }
     fill_points(view);
+    studio_view_measure(view);
     return view;
 }
 
-// All that stand share COARSE_NODES. Shares are halved at powers of two only: one plant more seldom
+// All plants share ALL_COARSE_NODES. Shares are halved at powers of two only: one plant more seldom
 // changes what is made of the others.
 static uint32_t share_of_coarse(const FrScene *scene) {
-    uint32_t share = COARSE_NODES;
-    for (uint64_t stands = 1; stands < scene->stands->len; stands *= 2) {
+    uint32_t share = ALL_COARSE_NODES;
+    for (uint64_t plants = 1; plants < scene->plants->len; plants *= 2) {
         share /= 2;
     }
-    return MAX(share, LEAST_COARSE_NODES);
+    return CLAMP(share, LEAST_COARSE_NODES, COARSE_NODES);
 }
 
 StudioView *studio_view_of(const FrScene *scene, const FrSkin *const *skins,
@@ -329,12 +341,13 @@ void studio_view_take_coarse(StudioView *view, StudioView *old) {
         StudioPlant *from = g_ptr_array_index(old->plants, i);
         StudioPlant *to = g_ptr_array_index(view->plants, i);
         if (from->wood == to->wood && is_same_wood(to->wood)) {
-            to->coarse_wood = g_steal_pointer(&from->coarse_wood);
+            memcpy(to->coarse_wood, from->coarse_wood, sizeof to->coarse_wood);
+            memset(from->coarse_wood, 0, sizeof from->coarse_wood);
         }
     }
 }
 
-void studio_view_add_coarse(StudioView *view, const FrContext *context) {
+static FrMesh *coarse_wood(const FrPlant *plant, uint32_t most, const FrContext *context) {
     FrSkinParams params = fr_skin_default();
     params.lod = COARSE_LEVEL;
     params.min_sides = 3;
@@ -343,16 +356,27 @@ void studio_view_add_coarse(StudioView *view, const FrContext *context) {
     params.bend = 20 * G_PI / 180;
     params.foliage = false;
     params.collar = 0;
+    uint16_t *flags = g_new(uint16_t, plant->axes.count + 1);
+    FrPlant thin = thinned(plant, most, flags);
+    FrMesh *mesh = NULL;
+    FrStatus status = fr_skin_plant(&thin, &params, FR_UP_Z, context, &mesh);
+    g_free(flags);
+    return status == FR_OK ? mesh : NULL;
+}
+
+void studio_view_add_coarse(StudioView *view, const FrContext *context) {
     for (guint i = 0; i < view->plants->len; i++) {
         StudioPlant *plant = g_ptr_array_index(view->plants, i);
-        if (plant->coarse_wood != NULL || plant->is_rational) {
-            continue; // taken over, or not drawn
+        uint32_t most = view->coarse_nodes;
+        if (plant->is_rational) {
+            continue; // no wood is drawn
         }
-        uint16_t *flags = g_new(uint16_t, plant->plant->axes.count + 1);
-        FrPlant thin = thinned(plant->plant, view->coarse_nodes, flags);
-        FrStatus status = fr_skin_plant(&thin, &params, FR_UP_Z, context, &plant->coarse_wood);
-        plant->coarse_wood = status == FR_OK ? plant->coarse_wood : NULL;
-        g_free(flags);
+        for (int level = 0; level < STUDIO_COARSE_LEVELS; level++, most /= COARSER) {
+            if (plant->coarse_wood[level] == NULL) { // else taken over
+                most = MAX(most, LEAST_COARSE_NODES);
+                plant->coarse_wood[level] = coarse_wood(plant->plant, most, context);
+            }
+        }
     }
 }
 

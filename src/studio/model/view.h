@@ -18,6 +18,7 @@ typedef struct StudioLeaf {
 typedef struct StudioBatch {
     uint32_t shape, material;
     uint32_t first, count;
+    float reach; ///< m, of a leaf from its base, in the mean
 } StudioBatch;
 
 /// A shape at its full detail and as coarse as can be; NULL where it could not be made.
@@ -39,18 +40,24 @@ typedef struct StudioPoint {
     float order; ///< botanical, of its axis
 } StudioPoint;
 
+/// How many there are of coarse wood.
+enum { STUDIO_COARSE_LEVELS = 3 };
+
 typedef struct StudioPlant {
-    const FrPlant *plant; ///< borrowed
-    const FrSkin *wood;   ///< borrowed
-    FrMesh *coarse_wood;  ///< for while the view moves; NULL: not made yet
-    FrMesh *foliage;      ///< of a plant whose leaves are deformed, or all of one that is shown as
-                          ///< rational surfaces; else NULL
-    bool is_rational;     ///< shown as rational surfaces: no wood is drawn
-    GArray *leaves;       ///< StudioLeaf
-    GArray *batches;      ///< StudioBatch
-    GArray *shapes;       ///< StudioShape, by shape of the plant
-    GArray *looks;        ///< StudioLook, by material of the plant
-    GArray *points;       ///< StudioPoint
+    const FrPlant *plant;                      ///< borrowed
+    const FrSkin *wood;                        ///< borrowed
+    FrMesh *coarse_wood[STUDIO_COARSE_LEVELS]; ///< for while the view moves, the first is the
+                                               ///< finest; NULL: not made yet
+    FrMesh *foliage;  ///< of a plant whose leaves are deformed, or all of one that is shown as
+                      ///< rational surfaces; else NULL
+    bool is_rational; ///< shown as rational surfaces: no wood is drawn
+    GArray *leaves;   ///< StudioLeaf
+    GArray *batches;  ///< StudioBatch
+    GArray *shapes;   ///< StudioShape, by shape of the plant
+    GArray *looks;    ///< StudioLook, by material of the plant
+    GArray *points;   ///< StudioPoint
+    vec3s middle;     ///< of a ball around all of it …
+    float radius;     ///< … that is m wide; < 0: there is nothing
 } StudioPlant;
 
 typedef struct StudioView {

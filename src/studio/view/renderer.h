@@ -6,22 +6,10 @@
 
 #include "studio/model/camera.h"
 #include "studio/model/overlay.h"
-#include "studio/model/wind.h"
+#include "studio/view/display.h"
 #include "studio/view/store.h"
 
 typedef struct StudioRenderer StudioRenderer;
-
-typedef enum StudioMode { STUDIO_SHADED, STUDIO_WIREFRAME, STUDIO_SKELETON } StudioMode;
-
-typedef struct StudioDisplay {
-    StudioMode mode;
-    bool has_shadow, has_occlusion, has_grid;
-    bool is_dark;
-    bool has_wind; ///< a coarse picture that never rests
-    StudioWind wind;
-    double cell;  ///< m, of the grid
-    double scale; ///< pixels of the framebuffer for one of the desktop's
-} StudioDisplay;
 
 /// What drawing took; the last of each.
 typedef struct StudioPace {

@@ -1,57 +1,9 @@
-#include "studio/view/store.h"
-
-#include "studio/view/pictures.h"
+#include "studio/view/store_private.h"
 
 #include "frond/daylight.h"
 
 #include <math.h>
 #include <string.h>
-
-static const float most_enlarged = 2.2f;
-
-// A mesh or a part of one.
-typedef struct Part {
-    GLuint vertices, indices;
-    size_t vertex_size, index_size; // bytes of the buffers
-    uint64_t index_count;
-    uint32_t material;
-    bool is_blade;
-} Part;
-
-typedef struct Look {
-    FrDigest digest;
-    StudioDress dress;
-    float picture_tint[3];
-} Look;
-
-typedef struct Plant {
-    const FrSkin *skin; // whose parts are held; never followed
-    GArray *wood;       // Part
-    GArray *coarse;     // Part; empty: there is none yet
-    GArray *foliage;    // Part
-    GArray *shapes;     // Part: fine and coarse in turn
-    GArray *batches;    // StudioBatch
-    GArray *looks;      // Look
-    GLuint leaves, points;
-    uint32_t point_count;
-    uint64_t leaf_triangles, wood_triangles;
-} Plant;
-
-typedef struct Stand {
-    mat4s model;
-    uint32_t plant;
-    bool is_still; // an obstacle
-} Stand;
-
-struct StudioStore {
-    GPtrArray *plants; // Plant *
-    GArray *stands;    // Stand
-    StudioPictures *pictures;
-    FrShading shading;
-    double min[3], max[3];
-    float sun[3];
-    StudioAmount amount;
-};
 
 // ---- life --------------------------------------------------------------------------------------
 
@@ -70,7 +22,9 @@ static GArray *new_parts(void) {
 static void plant_free(gpointer data) {
     Plant *plant = data;
     g_array_unref(plant->wood);
-    g_array_unref(plant->coarse);
+    for (int level = 0; level < STUDIO_COARSE_LEVELS; level++) {
+        g_array_unref(plant->coarse[level]);
+    }
     g_array_unref(plant->foliage);
     g_array_unref(plant->shapes);
     g_array_unref(plant->batches);
@@ -83,7 +37,9 @@ static void plant_free(gpointer data) {
 static Plant *plant_new(void) {
     Plant *plant = g_new0(Plant, 1);
     plant->wood = new_parts();
-    plant->coarse = new_parts();
+    for (int level = 0; level < STUDIO_COARSE_LEVELS; level++) {
+        plant->coarse[level] = new_parts();
+    }
     plant->foliage = new_parts();
     plant->shapes = new_parts();
     plant->batches = g_array_new(FALSE, FALSE, sizeof(StudioBatch));
@@ -229,7 +185,11 @@ static void copy_looks(Plant *plant, const StudioPlant *from) {
 
 static void send_plant(Plant *plant, const StudioPlant *from) {
     send_wood(plant, from->is_rational ? NULL : from->wood);
-    send_mesh(plant->coarse, from->is_rational ? NULL : from->coarse_wood);
+    for (int level = 0; level < STUDIO_COARSE_LEVELS; level++) {
+        send_mesh(plant->coarse[level], from->is_rational ? NULL : from->coarse_wood[level]);
+    }
+    plant->middle = from->middle;
+    plant->radius = from->radius;
     send_mesh(plant->foliage, from->foliage);
     send_shapes(plant, from);
     g_array_set_size(plant->batches, 0);
@@ -337,150 +297,13 @@ void studio_store_sun(const StudioStore *store, float sun[3]) {
     memcpy(sun, store->sun, sizeof store->sun);
 }
 
-static void dress(const StudioStore *store, const Plant *plant, uint32_t material,
-                  StudioPiece *piece) {
-    if (material >= plant->looks->len) { // of no material: as pictures show it
-        piece->look = piece->is_blade
-                          ? (StudioDress){.tint = {0.12f, 0.25f, 0.05f},
-                                          .roughness = 0.5f,
-                                          .translucency = 0.45f}
-                          : (StudioDress){.tint = {0.22f, 0.17f, 0.12f}, .roughness = 0.9f};
-        return;
-    }
-    const Look *look = &g_array_index(plant->looks, Look, material);
-    piece->picture = studio_pictures_find(store->pictures, look->digest, FR_MAP_COLOUR);
-    piece->bumps = studio_pictures_find(store->pictures, look->digest, FR_MAP_NORMAL);
-    piece->gloss = studio_pictures_find(store->pictures, look->digest, FR_MAP_ROUGHNESS);
-    piece->look = look->dress;
-    if (piece->picture != 0) {
-        memcpy(piece->look.tint, look->picture_tint, sizeof piece->look.tint);
-    }
-}
-
-static StudioPiece piece_of(const StudioStore *store, const Stand *stand, const Plant *plant,
-                            const Part *part, uint32_t material) {
-    StudioPiece piece = {.model = stand->model,
-                         .vertices = part->vertices,
-                         .indices = part->indices,
-                         .index_count = part->index_count,
-                         .enlarge = 1,
-                         .is_blade = part->is_blade,
-                         .is_still = stand->is_still,
-                         .triangles = part->index_count / 3};
-    dress(store, plant, material, &piece);
-    return piece;
-}
-
-static void list_parts(const StudioStore *store, const Stand *stand, const Plant *plant,
-                       const GArray *parts, uint64_t most, GArray *list) {
-    for (guint i = 0; i < parts->len; i++) {
-        const Part *part = &g_array_index(parts, Part, i);
-        StudioPiece piece = piece_of(store, stand, plant, part, part->material);
-        for (uint64_t first = 0; first < part->index_count; first += 3 * most) {
-            piece.first_index = first;
-            piece.index_count = MIN(3 * most, part->index_count - first);
-            piece.triangles = piece.index_count / 3;
-            g_array_append_val(list, piece);
-        }
-    }
-}
-
-// The first `part` of each batch, in pieces of at most `most` triangles.
-static void list_leaves(const StudioStore *store, const Stand *stand, const Plant *plant,
-                        bool is_coarse, double part, uint64_t most, GArray *list) {
-    for (guint b = 0; b < plant->batches->len; b++) {
-        const StudioBatch *batch = &g_array_index(plant->batches, StudioBatch, b);
-        const Part *shape =
-            &g_array_index(plant->shapes, Part, 2 * batch->shape + (is_coarse ? 1 : 0));
-        uint64_t wanted = MAX(1, (uint64_t)(part * batch->count));
-        uint64_t each = shape->index_count / 3;
-        if (each == 0) {
-            continue;
-        }
-        StudioPiece piece = piece_of(store, stand, plant, shape, batch->material);
-        piece.leaves = plant->leaves;
-        piece.enlarge = fminf((float)sqrt((double)batch->count / (double)wanted), most_enlarged);
-        uint64_t step = MAX(1, most / each);
-        for (uint64_t first = 0; first < wanted; first += step) {
-            piece.first_leaf = batch->first + first;
-            piece.leaf_count = MIN(step, wanted - first);
-            piece.triangles = piece.leaf_count * each;
-            g_array_append_val(list, piece);
-        }
-    }
-}
-
-static GArray *new_list(void) {
-    return g_array_new(FALSE, FALSE, sizeof(StudioPiece));
-}
-
-static const Plant *plant_of(const StudioStore *store, const Stand *stand) {
-    return g_ptr_array_index(store->plants, stand->plant);
-}
-
-GArray *studio_store_list_fine(const StudioStore *store, uint64_t most) {
-    GArray *list = new_list();
-    for (guint i = 0; i < store->stands->len; i++) {
-        const Stand *stand = &g_array_index(store->stands, Stand, i);
-        const Plant *plant = plant_of(store, stand);
-        list_parts(store, stand, plant, plant->wood, most, list);
-        list_parts(store, stand, plant, plant->foliage, most, list);
-        list_leaves(store, stand, plant, false, 1, most, list);
-    }
-    return list;
-}
-
-static uint64_t coarse_leaf_triangles(const StudioStore *store) {
-    uint64_t sum = 0;
-    for (guint i = 0; i < store->stands->len; i++) {
-        const Plant *plant = plant_of(store, &g_array_index(store->stands, Stand, i));
-        for (guint b = 0; b < plant->batches->len; b++) {
-            const StudioBatch *batch = &g_array_index(plant->batches, StudioBatch, b);
-            sum += batch->count *
-                   (g_array_index(plant->shapes, Part, 2 * batch->shape + 1).index_count / 3);
-        }
-    }
-    return sum;
-}
-
-static const GArray *coarse_wood_of(const Plant *plant) {
-    return plant->coarse->len > 0 ? plant->coarse : plant->wood;
-}
-
-static uint64_t coarse_wood_triangles(const StudioStore *store) {
-    uint64_t sum = 0;
-    for (guint i = 0; i < store->stands->len; i++) {
-        const GArray *parts =
-            coarse_wood_of(plant_of(store, &g_array_index(store->stands, Stand, i)));
-        for (guint p = 0; p < parts->len; p++) {
-            sum += g_array_index(parts, Part, p).index_count / 3;
-        }
-    }
-    return sum;
-}
-
-GArray *studio_store_list_coarse(const StudioStore *store, uint64_t budget, uint64_t most) {
-    GArray *list = new_list();
-    uint64_t leaves = coarse_leaf_triangles(store);
-    double left = fmax(0.4 * (double)budget, (double)budget - (double)coarse_wood_triangles(store));
-    double part = leaves == 0 ? 1 : fmin(1, left / (double)leaves);
-    for (guint i = 0; i < store->stands->len; i++) {
-        const Stand *stand = &g_array_index(store->stands, Stand, i);
-        const Plant *plant = plant_of(store, stand);
-        list_parts(store, stand, plant, coarse_wood_of(plant), most, list);
-        list_parts(store, stand, plant, plant->foliage, most, list);
-        list_leaves(store, stand, plant, true, part, most, list);
-    }
-    return list;
-}
-
 void studio_store_each_skeleton(const StudioStore *store,
                                 void (*draw)(void *user, const mat4s *model, GLuint points,
                                              uint32_t count),
                                 void *user) {
     for (guint i = 0; i < store->stands->len; i++) {
         const Stand *stand = &g_array_index(store->stands, Stand, i);
-        const Plant *plant = plant_of(store, stand);
+        const Plant *plant = studio_store_plant(store, stand);
         draw(user, &stand->model, plant->points, plant->point_count);
     }
 }

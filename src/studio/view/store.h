@@ -53,11 +53,20 @@ void studio_store_sun(const StudioStore *store, float sun[3]);
 /// The light of the scene; its own, until the next update.
 const FrShading *studio_store_shading(const StudioStore *store);
 
-/// All there is, in pieces of at most `most` triangles (StudioPiece).
-GArray *studio_store_list_fine(const StudioStore *store, uint64_t most);
-/// At most about `budget` triangles: coarse wood, coarse leaves, and fewer of them, each larger. In
-/// pieces of at most `most` triangles.
-GArray *studio_store_list_coarse(const StudioStore *store, uint64_t budget, uint64_t most);
+/// From where plants are seen.
+typedef struct StudioOutlook {
+    mat4s clip;
+    float eye[3];
+    float slack; ///< how far the wind may move them, parts of their size
+} StudioOutlook;
+
+/// All that is seen (NULL: all there is), in pieces of at most `most` triangles (StudioPiece).
+GArray *studio_store_list_fine(const StudioStore *store, const StudioOutlook *outlook,
+                               uint64_t most);
+/// About `budget` triangles of what is seen: coarse wood, coarse leaves, and fewer of them, each
+/// larger. In pieces of at most `most` triangles.
+GArray *studio_store_list_coarse(const StudioStore *store, const StudioOutlook *outlook,
+                                 uint64_t budget, uint64_t most);
 /// Calls `draw` for the skeleton of each plant that stands somewhere.
 void studio_store_each_skeleton(const StudioStore *store,
                                 void (*draw)(void *user, const mat4s *model, GLuint points,

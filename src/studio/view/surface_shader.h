@@ -62,7 +62,10 @@ static const char studio_surface_vertex[] =
     "    return max(sky[0] + sky[1] * n.y + sky[2] * n.z + sky[3] * n.x + sky[4] * n.x * n.y\n"    \
     "               + sky[5] * n.y * n.z + sky[6] * (3.0 * n.z * n.z - 1.0)\n"                     \
     "               + sky[7] * n.x * n.z + sky[8] * (n.x * n.x - n.y * n.y), 0.0);\n"              \
-    "}\n"                                                                                          \
+    "}\n"
+
+/// How much of the sun a point sees: of four places about it, or of itself.
+#define STUDIO_LIT                                                                                 \
     "float lit() {\n"                                                                              \
     "    if (!has_shadow) return 1.0;\n"                                                           \
     "    vec4 p = to_shadow * vec4(at, 1.0); vec3 s = p.xyz * 0.5 + 0.5;\n"                        \
@@ -73,6 +76,13 @@ static const char studio_surface_vertex[] =
     "        sum += texture(shadow, vec3(s.xy + o, s.z - bias));\n"                                \
     "    }\n"                                                                                      \
     "    return sum * 0.25;\n"                                                                     \
+    "}\n"
+#define STUDIO_LIT_ONCE                                                                            \
+    "float lit() {\n"                                                                              \
+    "    if (!has_shadow) return 1.0;\n"                                                           \
+    "    vec3 s = (to_shadow * vec4(at, 1.0)).xyz * 0.5 + 0.5;\n"                                  \
+    "    bool is_out = any(lessThan(s, vec3(0.0))) || any(greaterThan(s, vec3(1.0)));\n"           \
+    "    return is_out ? 1.0 : texture(shadow, vec3(s.xy, s.z - 0.0012));\n"                       \
     "}\n"
 
 /// What a surface throws back or lets through; see render/bsdf.h.
@@ -119,18 +129,31 @@ static const char studio_surface_vertex[] =
     "        sum += thrown(s, way, lamp_colour[i] * part / max(square, near));\n"                  \
     "    }\n"                                                                                      \
     "    return sum;\n"                                                                            \
-    "}\n"                                                                                          \
-    "vec3 all_light(Skin s, float mirror, vec3 base) {\n"                                          \
-    "    float open = lit();\n" /* what hides the sun hides about half of the sky, too */          \
-    "    vec3 direct = thrown(s, sun, sun_colour * open) + from_lamps(s);\n"                       \
-    "    vec3 bounce = from_sky(reflect(-s.v, s.n));\n"                                            \
-    "    vec3 soft = mirror * base * bounce;\n" /* 0.92: what a coat takes on the way in */        \
-    "    soft += s.out_coated * (s.coat > 0.0 ? 0.92 : 1.0) *\n"                                   \
-    "            (s.matt * from_sky(s.n) + s.through * from_sky(-s.n));\n"                         \
-    "    float shine = s.coat > 0.0 ? fresnel(s.coat, s.out_cosine) * (1.0 - 0.6 * s.width) : "    \
-    "0.0;\n"                                                                                       \
-    "    soft += shine * open * bounce;\n" /* what stands around is darker than the sky */         \
-    "    return direct + soft * (0.5 + 0.5 * open);\n"                                             \
+    "}\n"
+
+/// All light that a surface throws to the eye, by how much of the sun it sees.
+#define STUDIO_ALL_LIGHT                                                                            \
+    "vec3 all_light(Skin s, vec3 base, float open) {\n"                                             \
+    "    vec3 direct = thrown(s, sun, sun_colour * open) + from_lamps(s);\n"                        \
+    "    vec3 bounce = from_sky(reflect(-s.v, s.n));\n"                                             \
+    "    vec3 soft = mirror * base * bounce;\n" /* 0.92: what a coat takes on the way in */         \
+    "    soft += s.out_coated * (s.coat > 0.0 ? 0.92 : 1.0) *\n"                                    \
+    "            (s.matt * from_sky(s.n) + s.through * from_sky(-s.n));\n"                          \
+    "    float shine = s.coat > 0.0 ? fresnel(s.coat, s.out_cosine) * (1.0 - 0.6 * s.width) : "     \
+    "0.0;\n"                                                                                        \
+    "    soft += shine * open * bounce;\n" /* what stands around is darker than the sky */ /* what  \
+                                                                                              hides \
+                                                                                              the   \
+                                                                                              sun   \
+                                                                                              hides \
+                                                                                              about \
+                                                                                              half  \
+                                                                                              of    \
+                                                                                              the   \
+                                                                                              sky,  \
+                                                                                              too   \
+                                                                                            */      \
+    "    return direct + soft * (0.5 + 0.5 * open);\n"                                              \
     "}\n"
 
 /// The normal, bent by its map in the frame of the texture coordinates as the path tracer does it,
@@ -156,16 +179,48 @@ static const char studio_surface_vertex[] =
     "    return below > 0.0 ? normalize(n + v * below) : n;\n"                                     \
     "}\n"
 
+/// What a surface of that colour and roughness is made of; its `v` and `n` are set.
+#define STUDIO_SKIN                                                                                \
+    "Skin skin_of(Skin s, vec3 base, float rough, bool is_back) {\n"                               \
+    "    s.out_cosine = max(dot(s.n, s.v), 1e-4); s.a = 1.0; s.b = 0.0; s.through = vec3(0.0);\n"  \
+    "    s.matt = base;\n"                                                                         \
+    "    if (is_blade) {\n" /* light through a blade is yellower, its lower side paler */          \
+    "        float green = clamp((2.0 * base.g - base.r - base.b) / max(base.g, 1e-4), 0.0, "      \
+    "1.0);\n"                                                                                      \
+    "        s.through = min(mix(base, base * vec3(1.12, 1.25, 0.35), green), 1.0) * "             \
+    "translucency;\n"                                                                              \
+    "        if (is_back) {\n"                                                                     \
+    "            s.matt = mix(base, vec3(dot(base, luminance)), 0.25 * green) * (1.0 + 0.25 * "    \
+    "green);\n"                                                                                    \
+    "            s.matt = min(s.matt, 1.0); rough = min(rough * 1.3, 1.0);\n"                      \
+    "        }\n"                                                                                  \
+    "        s.matt *= 1.0 - translucency;\n"                                                      \
+    "    } else {\n"                                                                               \
+    "        float q = 0.36 * rough * rough; s.a = 1.0 - 0.5 * q / (q + 0.33); s.b = 0.45 * q / "  \
+    "(q + 0.09);\n"                                                                                \
+    "    }\n"                                                                                      \
+    "    s.matt *= 1.0 - mirror; s.through *= 1.0 - mirror;\n"                                     \
+    "    s.coat = rough < 1.0 && mirror <= 0.0 ? 0.04 : 0.0; s.width = max(rough * rough, "        \
+    "0.05);\n"                                                                                     \
+    "    s.out_coated = coated(s.coat, s.out_cosine);\n"                                           \
+    "    return s;\n"                                                                              \
+    "}\n"
+
+/// What light and surfaces are told by.
+#define STUDIO_TOLD                                                                                \
+    "uniform vec3 tint; uniform float cutoff, translucency, roughness, relief, mirror;\n"          \
+    "uniform bool has_picture, is_blade;\n"                                                        \
+    "uniform sampler2D picture;\n"                                                                 \
+    "uniform sampler2DShadow shadow; uniform mat4 to_shadow; uniform bool has_shadow;\n"           \
+    "const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);\n"
+
 static const char studio_surface_fragment[] =
     "#version 330 core\n"
-    "in vec3 at; in vec3 facing; in vec2 tile;\n"
-    "uniform vec3 tint; uniform float cutoff, translucency, roughness, relief, mirror;\n"
-    "uniform bool has_picture, has_bumps, has_gloss, is_blade, is_wire;\n"
-    "uniform sampler2D picture, bumps, gloss;\n"
-    "uniform sampler2DShadow shadow; uniform mat4 to_shadow; uniform bool has_shadow;\n"
-    "const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);\n"
-    "layout(location=0) out vec4 colour;\n" STUDIO_TONE STUDIO_LIGHT STUDIO_SCATTER STUDIO_NORMAL
-    "vec3 base_here() {\n"
+    "in vec3 at; in vec3 facing; in vec2 tile;\n" STUDIO_TOLD
+    "uniform bool has_bumps, has_gloss, is_wire;\n"
+    "uniform sampler2D bumps, gloss;\n"
+    "layout(location=0) out vec4 colour;\n" STUDIO_TONE STUDIO_LIGHT STUDIO_LIT STUDIO_SCATTER
+        STUDIO_NORMAL STUDIO_ALL_LIGHT STUDIO_SKIN "vec3 base_here() {\n"
     "    if (!has_picture) return tint;\n"
     "    vec4 t = texture(picture, tile);\n"
     "    if (is_blade) {\n" /* smaller pictures of a leaf have softer edges: keep their area */
@@ -179,25 +234,52 @@ static const char studio_surface_fragment[] =
     "void main() {\n"
     "    vec3 base = base_here();\n"
     "    Skin s; s.v = normalize(eye - at); s.n = normal_here(s.v);\n"
-    "    s.out_cosine = max(dot(s.n, s.v), 1e-4); s.a = 1.0; s.b = 0.0; s.through = vec3(0.0);\n"
     "    float rough = has_gloss ? roughness * texture(gloss, tile).g : roughness;\n"
-    "    s.matt = base;\n"
-    "    if (is_blade) {\n" /* light through a blade is yellower, its lower side paler */
-    "        float green = clamp((2.0 * base.g - base.r - base.b) / max(base.g, 1e-4), 0.0, 1.0);\n"
-    "        s.through = min(mix(base, base * vec3(1.12, 1.25, 0.35), green), 1.0) * "
-    "translucency;\n"
-    "        if (!gl_FrontFacing) {\n"
-    "            s.matt = mix(base, vec3(dot(base, luminance)), 0.25 * green) * (1.0 + 0.25 * "
-    "green);\n"
-    "            s.matt = min(s.matt, 1.0); rough = min(rough * 1.3, 1.0);\n"
-    "        }\n"
-    "        s.matt *= 1.0 - translucency;\n"
-    "    } else {\n"
-    "        float q = 0.36 * rough * rough; s.a = 1.0 - 0.5 * q / (q + 0.33); s.b = 0.45 * q / (q "
-    "+ 0.09);\n"
-    "    }\n"
-    "    s.matt *= 1.0 - mirror; s.through *= 1.0 - mirror;\n"
-    "    s.coat = rough < 1.0 && mirror <= 0.0 ? 0.04 : 0.0; s.width = max(rough * rough, 0.05);\n"
-    "    s.out_coated = coated(s.coat, s.out_cosine);\n"
-    "    colour = vec4(tone(all_light(s, mirror, base)), 1.0);\n"
+    "    s = skin_of(s, base, rough, !gl_FrontFacing);\n"
+    "    colour = vec4(tone(all_light(s, base, lit())), 1.0);\n"
     "}\n";
+
+/// The same with the light of vertices, for machines on which that of pixels takes too long while
+/// the view moves: on a software renderer a fragment of a small triangle costs more than its
+/// vertices. What a picture differs from its mean goes on top, as if the tone curve were a square
+/// root.
+#define STUDIO_PLAIN                                                                               \
+    "flat out vec3 mean;\n" STUDIO_TOLD STUDIO_TONE STUDIO_LIGHT STUDIO_LIT_ONCE STUDIO_SCATTER    \
+        STUDIO_ALL_LIGHT STUDIO_SKIN "Skin skin_here() {\n"                                        \
+    "    vec4 world = placed(); at = world.xyz; tile = uv; gl_Position = clip * world;\n"          \
+    "    mean = has_picture ? max(textureLod(picture, vec2(0.5), 16.0).rgb, 0.01) : vec3(1.0);\n"  \
+    "    Skin s; s.v = normalize(eye - at); s.n = normalize(mat3(model) * turned(normal));\n"      \
+    "    bool is_back = dot(s.n, s.v) < 0.0; s.n = is_back ? -s.n : s.n;\n"                        \
+    "    return skin_of(s, mean * tint, roughness, is_back);\n"                                    \
+    "}\n"
+#define STUDIO_PAINT                                                                               \
+    "in vec2 tile; flat in vec3 mean;\n"                                                           \
+    "uniform bool has_picture, is_blade; uniform sampler2D picture; uniform float cutoff;\n"       \
+    "layout(location=0) out vec4 colour;\n"                                                        \
+    "vec4 painted(vec3 c) {\n"                                                                     \
+    "    if (!has_picture) return vec4(c, 1.0);\n"                                                 \
+    "    vec4 t = texture(picture, tile);\n"                                                       \
+    "    if (is_blade && t.a < cutoff) discard;\n"                                                 \
+    "    return vec4(c * sqrt(t.rgb / mean), 1.0);\n"                                              \
+    "}\n"
+
+static const char studio_plain_vertex[] =
+    STUDIO_PLACE "vec3 at; out vec3 paint; out vec2 tile;\n" STUDIO_PLAIN "void main() {\n"
+                 "    Skin s = skin_here(); paint = tone(all_light(s, mean * tint, lit()));\n"
+                 "}\n";
+static const char studio_plain_fragment[] =
+    "#version 330 core\n"
+    "in vec3 paint;\n" STUDIO_PAINT "void main() { colour = painted(paint); }\n";
+
+/// Walls and water are large: the edges of shadows are where they are, not at their vertices.
+static const char studio_still_vertex[] = STUDIO_PLACE
+    "out vec3 at, sunny, shady; out vec2 tile;\n" STUDIO_PLAIN "void main() {\n"
+    "    Skin s = skin_here(); vec3 base = mean * tint;\n"
+    "    sunny = tone(all_light(s, base, 1.0)); shady = tone(all_light(s, base, 0.0));\n"
+    "}\n";
+static const char studio_still_fragment[] =
+    "#version 330 core\n"
+    "in vec3 at, sunny, shady;\n"
+    "uniform sampler2DShadow shadow; uniform mat4 to_shadow; uniform bool "
+    "has_shadow;\n" STUDIO_PAINT STUDIO_LIT_ONCE
+    "void main() { colour = painted(mix(shady, sunny, lit())); }\n";

@@ -55,3 +55,12 @@ void studio_target_make_shadow(StudioTarget *target, int size) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     attach(target);
 }
+
+void studio_target_open(const StudioTarget *target) {
+    glBindFramebuffer(GL_FRAMEBUFFER, target->frame);
+    glViewport(0, 0, target->width, target->height);
+    glEnable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glDepthFunc(GL_LEQUAL);
+}
