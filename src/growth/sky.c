@@ -50,6 +50,8 @@ FrSky fr_sky_of(const FrGrowth *growth) {
 
 // ---- drawing ----------------------------------------------------------------------------------
 
+enum { ABREAST = 64 }; ///< points that a view turns to at once
+
 /// A view: two axes of its picture, and where on them the picture lies.
 typedef struct View {
     vec3s right, up, towards;
@@ -76,8 +78,9 @@ typedef struct Looking {
     uint8_t *is_seen; ///< by view, then by bud
 } Looking;
 
+/// Of a picture, and those behind it that nobody looks at.
 static size_t pixels_of(const Looking *looking) {
-    return (size_t)looking->width * (size_t)looking->width;
+    return (size_t)looking->width * (size_t)looking->width + ABREAST;
 }
 
 static View view_of(const Looking *looking, uint32_t index, int worker) {
@@ -118,8 +121,6 @@ static void draw_square(const View *view, float x, float y, float depth, float h
     }
 }
 
-enum { ABREAST = 64 }; ///< points that a view turns to at once
-
 /// Where points lie in a picture, and how near they are to the sky.
 typedef struct Places {
     float x[ABREAST], y[ABREAST], depth[ABREAST];
@@ -138,36 +139,47 @@ FR_LANES_CLONES static void place(const View *view, const float *restrict x,
     }
 }
 
-/// Which squares are drawn: those of less than a pixel by chance.
-FR_LANES_CLONES static void choose(const View *view, const float *restrict side,
+/// Where squares of less than a pixel are drawn: by chance, and else in a pixel behind the picture,
+/// one for each lane. Every second square comes to nothing, which no branch foresees, so that
+/// drawing all of them costs less than asking. Tells whether some squares are wider than a pixel.
+FR_LANES_CLONES static bool choose(const View *view, const float *restrict side,
                                    const uint32_t *restrict hash, uint32_t count,
-                                   uint8_t *restrict is_drawn) {
+                                   const Places *restrict places, int32_t *restrict pixel) {
     uint32_t own = view->index * 0x9e3779b9u;
-    float scale = view->scale;
+    float scale = view->scale, size = (float)view->width;
+    int32_t width = view->width, behind = width * width, wide = 0;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t bits = (hash[i] ^ own) * 0x85ebca6bu;
         bits ^= bits >> 15;
         bits *= 0x2c1b3c6du;
-        float width = side[i] * scale;
-        is_drawn[i] = (float)(int32_t)(bits >> 8) * 0x1p-24f < width * width;
+        float across = side[i] * scale, x = places->x[i], y = places->y[i];
+        // No && and no branch: vectors know neither.
+        int32_t is_inside = (x >= 0) & (y >= 0) & (x < size) & (y < size);
+        int32_t is_drawn = (float)(int32_t)(bits >> 8) * 0x1p-24f < across * across;
+        int32_t column = (int32_t)smaller(larger(x, 0), size);
+        int32_t row = (int32_t)smaller(larger(y, 0), size);
+        int32_t is_wide = across > 1;
+        wide |= is_wide;
+        pixel[i] = is_inside & is_drawn & !is_wide ? row * width + column : behind + (int32_t)i;
     }
+    return wide != 0;
 }
 
 static void draw_shades(const View *view, const FrShades *shades) {
     Places places;
-    uint8_t is_drawn[ABREAST];
+    int32_t pixel[ABREAST];
     for (uint32_t i = 0; i < shades->count; i += ABREAST) {
         uint32_t count = MIN(ABREAST, shades->count - i);
         place(view, shades->x + i, shades->y + i, shades->z + i, count, &places);
-        choose(view, shades->side + i, shades->hash + i, count, is_drawn);
+        bool has_wide = choose(view, shades->side + i, shades->hash + i, count, &places, pixel);
         for (uint32_t k = 0; k < count; k++) {
-            float side = shades->side[i + k] * view->scale, x = places.x[k], y = places.y[k];
-            bool is_inside = x >= 0 && y >= 0 && x < (float)view->width && y < (float)view->width;
+            float *at = view->depth + pixel[k];
+            *at = larger(*at, places.depth[k]);
+        }
+        for (uint32_t k = 0; has_wide && k < count; k++) {
+            float side = shades->side[i + k] * view->scale;
             if (side > 1) {
-                draw_square(view, x, y, places.depth[k], side / 2);
-            } else if (is_drawn[k] && is_inside) {
-                float *pixel = view->depth + (size_t)y * (size_t)view->width + (size_t)x;
-                *pixel = larger(*pixel, places.depth[k]);
+                draw_square(view, places.x[k], places.y[k], places.depth[k], side / 2);
             }
         }
     }
