@@ -26,7 +26,7 @@ typedef struct FrParticles {
     uint8_t *is_dead;
     FrParticle *directions; ///< those with w other than 1
     uint32_t direction_count;
-    float origin[3], cell;
+    float origin[3], cell, inverse; ///< lowest corner, width of cells, m, and cells a metre
     int size[3];     ///< cells along each axis
     uint32_t *start; ///< first particle of each cell, x fastest; two more at the end
 } FrParticles;

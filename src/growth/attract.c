@@ -18,7 +18,7 @@ typedef struct Attracting {
 } Attracting;
 
 static float influence_of(const FrParticles *particles, uint32_t i, float species) {
-    return particles->influence[i] > 0 ? particles->influence[i] : species;
+    return particles->has_own && particles->influence[i] > 0 ? particles->influence[i] : species;
 }
 
 /// Distance first, so that the smallest number is the nearest; the key tells equals apart.
@@ -158,6 +158,18 @@ static void sum_up(void *data, size_t begin, size_t end, int worker) {
     }
 }
 
+/// True if some species is drawn by particles, and if some follow the published rule.
+static bool is_anyone_drawn(const FrGrowth *growth, bool *by_published_rule) {
+    bool is_anyone = false;
+    *by_published_rule = false;
+    for (uint32_t i = 0; i < growth->species_count; i++) {
+        const FrSpeciesParams *params = &growth->species[i].params;
+        is_anyone |= params->fate != FR_FATE_COLONIZE;
+        *by_published_rule |= params->particle_rule == FR_PARTICLE_BUD;
+    }
+    return is_anyone;
+}
+
 /// The published rule: what a bud reaches dies together with it. Serial, since it takes particles.
 static void meet(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t count) {
     for (uint32_t b = 0; b < count; b++) {
@@ -177,18 +189,17 @@ FrStatus fr_growth_attract(FrGrowth *growth, const FrLiveBudAt *buds, uint32_t c
                            const FrContext *context) {
     enum { GRAIN = 64 };
     FrParticles *particles = growth->particles;
-    bool is_wanted = false;
-    for (uint32_t b = 0; b < count; b++) {
-        is_wanted |= buds[b].params->fate != FR_FATE_COLONIZE;
-    }
-    if (particles == NULL || !is_wanted) {
+    bool by_published_rule;
+    if (particles == NULL || !is_anyone_drawn(growth, &by_published_rule)) {
         return FR_OK;
     }
     Attracting attracting = {.growth = growth, .buds = buds};
     attracting.nearest = g_new(uint64_t, particles->count + 1);
     attracting.may_draw = g_new0(uint8_t, count + 1);
     memset(attracting.nearest, 0xff, particles->count * sizeof(uint64_t));
-    meet(growth, buds, count);
+    if (by_published_rule) {
+        meet(growth, buds, count);
+    }
     fr_parallel_for(context->pool, count, GRAIN, find_nearest, &attracting, context->progress);
     fr_parallel_for(context->pool, count, GRAIN, sum_up, &attracting, context->progress);
     g_free(attracting.nearest);

@@ -60,6 +60,7 @@ static void lay_grid(FrParticles *grid, const FrParticle *places, uint32_t count
         }
         grid->cell *= cells > MAX_CELLS ? 1.5f : 1;
     } while (cells > MAX_CELLS);
+    grid->inverse = 1 / grid->cell;
 }
 
 // Without the care of fmaxf() for what is no number: places are finite.
@@ -68,7 +69,7 @@ static inline float larger(float a, float b) {
 }
 
 static int cell_along(const FrParticles *grid, float at, int axis) {
-    float where = (at - grid->origin[axis]) / grid->cell;
+    float where = (at - grid->origin[axis]) * grid->inverse;
     int last = grid->size[axis] - 1;
     if (!(where > 0)) {
         return 0;
@@ -199,7 +200,17 @@ static float away(const FrParticles *grid, float at, int cell, int axis) {
     return larger(0, larger(low - at, at - (low + grid->cell)));
 }
 
+/// Appends the particles of cells first … last of a row, if there are any. Most rows of sparse
+/// particles have none, which no branch foresees.
+static uint32_t append_run(const FrParticles *grid, uint32_t row, int first, int last, bool is_near,
+                           FrRun *runs, uint32_t count) {
+    FrRun run = {grid->start[row + (uint32_t)first], grid->start[row + (uint32_t)last + 1]};
+    runs[count] = run;
+    return count + (uint32_t)(is_near & (run.end > run.begin));
+}
+
 uint32_t fr_particles_near(const FrParticles *grid, vec3s at, float radius, FrRun *runs) {
+    enum { FEW = 3 }; ///< cells of a row that are not worth trimming
     uint32_t count = 0;
     // A little more than asked for: cells are found with rounding.
     float reach = radius + grid->cell * 1e-3f;
@@ -213,21 +224,20 @@ uint32_t fr_particles_near(const FrParticles *grid, vec3s at, float radius, FrRu
         runs[0] = (FrRun){0, grid->count};
         return grid->count > 0;
     }
+    bool is_short = to[0] - from[0] < FEW;
     for (int z = from[2]; z <= to[2]; z++) {
         float dz = away(grid, at.z, z, 2);
         for (int y = from[1]; y <= to[1]; y++) {
             float dy = away(grid, at.y, y, 1);
             float left = reach * reach - dz * dz - dy * dy;
-            if (left < 0) {
-                continue;
-            }
-            float half = sqrtf(left);
             uint32_t row = (uint32_t)((z * grid->size[1] + y) * grid->size[0]);
-            int first = cell_along(grid, at.x - half - grid->cell * 1e-3f, 0);
-            int last = cell_along(grid, at.x + half + grid->cell * 1e-3f, 0);
-            FrRun run = {grid->start[row + (uint32_t)first], grid->start[row + (uint32_t)last + 1]};
-            if (run.end > run.begin) {
-                runs[count++] = run;
+            if (is_short) {
+                count = append_run(grid, row, from[0], to[0], left >= 0, runs, count);
+            } else if (left >= 0) {
+                float half = sqrtf(left);
+                int first = cell_along(grid, at.x - half - grid->cell * 1e-3f, 0);
+                int last = cell_along(grid, at.x + half + grid->cell * 1e-3f, 0);
+                count = append_run(grid, row, first, last, true, runs, count);
             }
         }
     }
