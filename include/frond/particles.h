@@ -27,8 +27,8 @@ typedef struct FrParticles {
     FrParticle *directions; ///< those with w other than 1
     uint32_t direction_count;
     float origin[3], cell, inverse; ///< lowest corner, width of cells, m, and cells a metre
-    int size[3];     ///< cells along each axis
-    uint32_t *start; ///< first particle of each cell, x fastest; two more at the end
+    int size[3];                    ///< cells along each axis
+    uint32_t *start;                ///< first particle of each cell, x fastest; two more at the end
 } FrParticles;
 
 /// Particles [begin, end) of the columns.

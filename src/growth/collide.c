@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static void world_of(const FrGrownPlant *plant, vec3s at, double world[3]) {
     for (int axis = 0; axis < 3; axis++) {
@@ -66,7 +65,7 @@ typedef enum Question { IS_STANDING, IS_CLAIMED } Question;
 typedef struct Asked {
     const FrGrowth *growth;
     const FrProposal *proposal;
-    const FrCell *cells; ///< of its segment
+    const FrCellPlace *places; ///< of its segment
     Question question;
 } Asked;
 
@@ -81,9 +80,10 @@ static bool comes_before(const FrGrowth *growth, const FrProposal *proposal, uin
 }
 
 /// True for a cell of the segment itself, which box and segment need not both look at.
-static bool is_own_cell(const Asked *asked, FrCell cell) {
+static bool is_own_cell(const Asked *asked, const FrCellPlace *place) {
     for (uint32_t k = asked->proposal->cell_count; k-- > 1;) {
-        if (memcmp(&asked->cells[k], &cell, sizeof cell) == 0) {
+        const FrCellPlace *own = &asked->places[k];
+        if (own->brick == place->brick && own->layer == place->layer && own->bit == place->bit) {
             return true;
         }
     }
@@ -94,23 +94,30 @@ static const uint64_t *bits_of(const FrBrick *brick, Question question) {
     return question == IS_STANDING ? brick->taken : brick->asked;
 }
 
+static bool has_bit(const Asked *asked, const FrCellPlace *place) {
+    return place->brick != NULL &&
+           (bits_of(place->brick, asked->question)[place->layer] >> place->bit & 1) != 0;
+}
+
 /// A cell whose bit is set: true if it is in the bud's way.
-static inline bool cell_blocks(const Asked *asked, const FrBrick *brick, FrCell cell) {
-    unsigned layer = (unsigned)cell.at[2] & 7, bit = fr_voxels_bit(cell);
+static inline bool cell_blocks(const Asked *asked, const FrCellPlace *place) {
+    const FrBrick *brick = place->brick;
+    unsigned layer = place->layer, bit = place->bit;
+    const uint32_t *owner = &brick->owners[fr_voxels_slot(layer, bit)];
     if (asked->question == IS_CLAIMED) {
         bool is_contested = (brick->contested >> fr_voxels_cube(layer, bit) & 1) != 0;
-        return (is_contested || !is_own_cell(asked, cell)) &&
-               comes_before(asked->growth, asked->proposal, *fr_voxels_at(brick, cell));
+        return (is_contested || !is_own_cell(asked, place)) &&
+               comes_before(asked->growth, asked->proposal, *owner);
     }
-    uint32_t owner = brick->solid[layer] >> bit & 1
+    uint32_t whose = brick->solid[layer] >> bit & 1
                          ? (brick->ground[layer] >> bit & 1 ? FR_VOXEL_GROUND : FR_VOXEL_SOLID)
-                         : *fr_voxels_at(brick, cell);
-    return !is_related(asked->growth, asked->proposal, owner) &&
-           !(owner == FR_VOXEL_SOLID && is_footing(asked->growth, asked->proposal, cell));
+                         : *owner;
+    return !is_related(asked->growth, asked->proposal, whose) &&
+           !(whose == FR_VOXEL_SOLID && is_footing(asked->growth, asked->proposal, place->cell));
 }
 
 /// Cells low … high of the brick that begins at `first`, numbered within it.
-static inline bool part_blocks(const Asked *asked, const FrBrick *brick, FrCell first,
+static inline bool part_blocks(const Asked *asked, FrBrick *brick, FrCell first,
                                const unsigned low[3], const unsigned high[3]) {
     uint64_t row = (UINT64_C(2) << high[0]) - (UINT64_C(1) << low[0]);
     uint64_t rows = (row * UINT64_C(0x0101010101010101)) >> (8 * (7 - (high[1] - low[1])))
@@ -119,9 +126,13 @@ static inline bool part_blocks(const Asked *asked, const FrBrick *brick, FrCell 
     for (unsigned layer = low[2]; layer <= high[2]; layer++) {
         for (uint64_t left = bits[layer] & rows; left != 0; left &= left - 1) {
             int bit = __builtin_ctzll(left);
-            FrCell cell = {{(int16_t)(first.at[0] + (bit & 7)), (int16_t)(first.at[1] + (bit >> 3)),
-                            (int16_t)(first.at[2] + (int)layer)}};
-            if (cell_blocks(asked, brick, cell)) {
+            FrCellPlace place = {
+                .brick = brick,
+                .cell = {{(int16_t)(first.at[0] + (bit & 7)), (int16_t)(first.at[1] + (bit >> 3)),
+                          (int16_t)(first.at[2] + (int)layer)}},
+                .layer = (uint8_t)layer,
+                .bit = (uint8_t)bit};
+            if (cell_blocks(asked, &place)) {
                 return true;
             }
         }
@@ -134,10 +145,9 @@ static const FrSpeciesParams *params_of(const Asked *asked) {
     return &fr_species_of(growth, &growth->plants[asked->proposal->plant])->params;
 }
 
-/// The box around a cell: true if something is in the way in it.
-static inline bool box_blocks(const Asked *asked, FrCell cell) {
+/// Cells up to `half` around one.
+static bool wide_box_blocks(const Asked *asked, FrCell cell, int half) {
     const FrGrowth *growth = asked->growth;
-    int half = (int)params_of(asked)->box / 2;
     int low[3], high[3];
     for (int axis = 0; axis < 3; axis++) {
         low[axis] = MAX(cell.at[axis] - half, 0);
@@ -155,7 +165,7 @@ static inline bool box_blocks(const Asked *asked, FrCell cell) {
                     from[axis] = (unsigned)(MAX(low[axis], begin) - begin);
                     to[axis] = (unsigned)(MIN(high[axis], begin + FR_BRICK_WIDTH - 1) - begin);
                 }
-                const FrBrick *at = fr_voxels_brick(growth->voxels, first);
+                FrBrick *at = fr_voxels_brick(growth->voxels, first);
                 if (at != NULL && part_blocks(asked, at, first, from, to)) {
                     return true;
                 }
@@ -165,19 +175,20 @@ static inline bool box_blocks(const Asked *asked, FrCell cell) {
     return false;
 }
 
+/// The box around a cell: true if something is in the way in it.
+static inline bool box_blocks(const Asked *asked, const FrCellPlace *middle) {
+    int half = (int)params_of(asked)->box / 2;
+    return half > 0 ? wide_box_blocks(asked, middle->cell, half)
+                    : has_bit(asked, middle) && cell_blocks(asked, middle);
+}
+
 /// The cells of the segment, without the first, in which its bearer stands.
 static inline bool segment_blocks(const Asked *asked) {
-    FrBrick *brick = NULL;
     bool has_boxes = params_of(asked)->keeps_off == FR_KEEPS_OFF_INTERNODE;
     for (uint32_t i = 1; i < asked->proposal->cell_count; i++) {
-        FrCell cell = asked->cells[i];
-        brick = fr_voxels_next_brick(asked->growth->voxels, asked->cells, i, brick);
-        if (brick != NULL &&
-            (bits_of(brick, asked->question)[cell.at[2] & 7] >> fr_voxels_bit(cell) & 1) != 0 &&
-            cell_blocks(asked, brick, cell)) {
-            return true;
-        }
-        if (has_boxes && box_blocks(asked, cell)) {
+        const FrCellPlace *place = &asked->places[i];
+        if ((has_bit(asked, place) && cell_blocks(asked, place)) ||
+            (has_boxes && box_blocks(asked, place))) {
             return true;
         }
     }
@@ -190,19 +201,26 @@ bool fr_growth_tip(const FrGrowth *growth, const FrProposal *proposal, FrCell *t
     return fr_voxels_cell(growth->voxels, end, tip);
 }
 
-bool fr_growth_is_free(const FrGrowth *growth, FrProposal *proposal, FrCell *cells) {
+bool fr_growth_is_free(const FrGrowth *growth, FrProposal *proposal, FrCellPlace *places) {
     const FrGrownPlant *plant = &growth->plants[proposal->plant];
-    const Asked asked = {growth, proposal, cells, IS_STANDING};
-    FrCell tip;
-    if (!fr_growth_tip(growth, proposal, &tip) || box_blocks(&asked, tip)) {
+    const Asked asked = {growth, proposal, places, IS_STANDING};
+    FrCell tip, cells[FR_WALK_CELLS];
+    if (!fr_growth_tip(growth, proposal, &tip)) {
+        return false;
+    }
+    FrCellPlace end;
+    fr_path_find(growth->voxels, &tip, 1, &end);
+    if (box_blocks(&asked, &end)) {
         return false;
     }
     proposal->cell_count =
         fr_growth_walk(growth, plant, plant->buds[proposal->bud].node, proposal->at, cells);
+    fr_path_find(growth->voxels, cells, proposal->cell_count, places);
     return proposal->cell_count > 0 && !segment_blocks(&asked);
 }
 
-bool fr_growth_is_first(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
-    const Asked asked = {growth, proposal, cells, IS_CLAIMED};
-    return !box_blocks(&asked, cells[proposal->cell_count - 1]) && !segment_blocks(&asked);
+bool fr_growth_is_first(const FrGrowth *growth, const FrProposal *proposal,
+                        const FrCellPlace *places) {
+    const Asked asked = {growth, proposal, places, IS_CLAIMED};
+    return !box_blocks(&asked, &places[proposal->cell_count - 1]) && !segment_blocks(&asked);
 }

@@ -45,7 +45,8 @@ static void aim(const FrGrowth *growth, FrProposal *proposal, uint32_t trial) {
 }
 
 /// Finds a free way and its cells, or says that there is none. It aims already by the first trial.
-static void propose(const FrGrowth *growth, FrProposal *proposal, bool is_again, FrCell *cells) {
+static void propose(const FrGrowth *growth, FrProposal *proposal, bool is_again,
+                    FrCellPlace *places) {
     const FrGrownPlant *plant = &growth->plants[proposal->plant];
     const FrReadySpecies *species = fr_species_of(growth, plant);
     const FrLiveBud *bud = &plant->buds[proposal->bud];
@@ -57,7 +58,7 @@ static void propose(const FrGrowth *growth, FrProposal *proposal, bool is_again,
         }
         if (is_in_arena(growth, plant, proposal->at) &&
             is_in_envelope(growth, plant, bud, bud_at(plant, bud), proposal->at) &&
-            (!species->params.collide || fr_growth_is_free(growth, proposal, cells)) &&
+            (!species->params.collide || fr_growth_is_free(growth, proposal, places)) &&
             fr_climb_is_clear(growth, plant, bud, proposal->at)) {
             proposal->state = species->params.collide ? FR_PROPOSAL_ASKS : FR_PROPOSAL_WON;
             return;
@@ -81,7 +82,7 @@ static FrProposal *proposal_at(const Round *round, size_t i) {
 
 enum { AHEAD = 8, TOGETHER = 32 };
 
-typedef FrCell Cells[FR_WALK_CELLS];
+typedef FrCellPlace Places[FR_WALK_CELLS];
 
 /// Has the memory brought that tells what stands where a proposal aims.
 static void fetch_tip(const FrGrowth *growth, const FrProposal *proposal) {
@@ -96,38 +97,46 @@ static void fetch_tip(const FrGrowth *growth, const FrProposal *proposal) {
     }
 }
 
-/// Has the owners of a segment's cells brought.
-static void fetch(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
-    FrBrick *brick = NULL;
+/// Has the owner of a cell brought.
+static inline void fetch_owner(const FrCellPlace *place) {
+    uint32_t *owners =
+        place->brick == NULL ? NULL : __atomic_load_n(&place->brick->owners, __ATOMIC_ACQUIRE);
+    if (owners != NULL) {
+        __builtin_prefetch(&owners[fr_voxels_slot(place->layer, place->bit)], 1);
+    }
+}
+
+/// True for a cell that several may have asked for.
+static inline bool is_contested(const FrCellPlace *place) {
+    return (__atomic_load_n(&place->brick->contested, __ATOMIC_RELAXED) >>
+                fr_voxels_cube(place->layer, place->bit) &
+            1) != 0;
+}
+
+/// Half of what is done for a proposal that asks.
+typedef void (*Half)(const Round *round, FrProposal *proposal, FrCellPlace *places);
+
+/// The cells of a segment, and the owners of those that several ask for brought: nobody reads the
+/// others.
+static void look_up(const Round *round, FrProposal *proposal, FrCellPlace *places) {
+    fr_path_places(round->growth, proposal, places);
     for (uint32_t k = 1; k < proposal->cell_count; k++) {
-        brick = fr_voxels_next_brick(growth->voxels, cells, k, brick);
-        uint32_t *owners = brick == NULL ? NULL : __atomic_load_n(&brick->owners, __ATOMIC_ACQUIRE);
-        if (owners != NULL) {
-            unsigned layer = (unsigned)cells[k].at[2] & 7;
-            __builtin_prefetch(&owners[fr_voxels_slot(layer, fr_voxels_bit(cells[k]))], 1);
+        if (is_contested(&places[k])) {
+            fetch_owner(&places[k]);
         }
     }
 }
 
-/// Half of what is done for a proposal that asks.
-typedef void (*Half)(const Round *round, FrProposal *proposal, FrCell *cells);
-
-/// The cells of a segment, and their owners brought.
-static void look_up(const Round *round, FrProposal *proposal, FrCell *cells) {
-    fr_path_cells(round->growth, proposal, cells);
-    fetch(round->growth, proposal, cells);
-}
-
 static inline void serve(const Round *round, size_t begin, size_t end, Half first, Half second) {
-    Cells cells[AHEAD];
+    Places places[AHEAD];
     for (size_t i = begin; i < end + AHEAD; i++) {
         FrProposal *last = i < begin + AHEAD ? NULL : proposal_at(round, i - AHEAD);
         if (last != NULL && last->state == FR_PROPOSAL_ASKS) {
-            second(round, last, cells[i % AHEAD]);
+            second(round, last, places[i % AHEAD]);
         }
         FrProposal *next = i < end ? proposal_at(round, i) : NULL;
         if (next != NULL && next->state == FR_PROPOSAL_ASKS) {
-            first(round, next, cells[i % AHEAD]);
+            first(round, next, places[i % AHEAD]);
         }
     }
 }
@@ -153,12 +162,16 @@ static bool ask(const FrGrowth *growth, uint32_t *owner, uint32_t own) {
 }
 
 /// Asks for every cell that nobody owns yet; what is a relative's stays so.
-static void claim(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells) {
+static void claim(const FrGrowth *growth, const FrProposal *proposal, const FrCellPlace *places) {
     for (uint32_t k = 1; k < proposal->cell_count; k++) {
-        FrBrick *brick = fr_voxels_reserve(growth->voxels, cells[k]);
-        unsigned layer = (unsigned)cells[k].at[2] & 7, bit = fr_voxels_bit(cells[k]);
+        const FrCellPlace *place = &places[k];
+        FrBrick *brick = place->brick;
+        if (brick == NULL || __atomic_load_n(&brick->owners, __ATOMIC_ACQUIRE) == NULL) {
+            brick = fr_voxels_reserve(growth->voxels, place->cell);
+        }
+        unsigned layer = place->layer, bit = place->bit;
         if ((brick->taken[layer] >> bit & 1) == 0) {
-            if (ask(growth, fr_voxels_at(brick, cells[k]), proposal->own)) {
+            if (ask(growth, &brick->owners[fr_voxels_slot(layer, bit)], proposal->own)) {
                 set_bit(&brick->contested, UINT64_C(1) << fr_voxels_cube(layer, bit));
             }
             set_bit(&brick->asked[layer], UINT64_C(1) << bit);
@@ -167,16 +180,16 @@ static void claim(const FrGrowth *growth, const FrProposal *proposal, const FrCe
 }
 
 /// Ways are looked for among what is owned, which claims leave as it is.
-static void look_for_way(const Round *round, FrProposal *proposal, FrCell *cells) {
-    propose(round->growth, proposal, round->is_again, cells);
-    if (proposal->state == FR_PROPOSAL_ASKS) {
-        fetch(round->growth, proposal, cells);
+static void look_for_way(const Round *round, FrProposal *proposal, FrCellPlace *places) {
+    propose(round->growth, proposal, round->is_again, places);
+    for (uint32_t k = 1; proposal->state == FR_PROPOSAL_ASKS && k < proposal->cell_count; k++) {
+        fetch_owner(&places[k]);
     }
 }
 
-static void claim_way(const Round *round, FrProposal *proposal, FrCell *cells) {
-    claim(round->growth, proposal, cells);
-    fr_path_keep(round->growth, proposal, cells);
+static void claim_way(const Round *round, FrProposal *proposal, FrCellPlace *places) {
+    claim(round->growth, proposal, places);
+    fr_path_keep(round->growth, proposal, places);
 }
 
 static void propose_range(void *data, size_t begin, size_t end, int worker) {
@@ -194,8 +207,8 @@ static void propose_range(void *data, size_t begin, size_t end, int worker) {
     }
 }
 
-static void decide(const Round *round, FrProposal *proposal, FrCell *cells) {
-    bool is_first = fr_growth_is_first(round->growth, proposal, cells);
+static void decide(const Round *round, FrProposal *proposal, FrCellPlace *places) {
+    bool is_first = fr_growth_is_first(round->growth, proposal, places);
     proposal->next = is_first ? FR_PROPOSAL_WON : FR_PROPOSAL_LOST;
 }
 
@@ -204,31 +217,25 @@ static void decide_range(void *data, size_t begin, size_t end, int worker) {
     serve(data, begin, end, look_up, decide);
 }
 
-/// True for a cell in which a proposal is the first of all that ask for it.
-static bool has_first(const FrBrick *brick, FrCell cell, uint32_t own) {
-    unsigned layer = (unsigned)cell.at[2] & 7, bit = fr_voxels_bit(cell);
-    if ((__atomic_load_n(&brick->taken[layer], __ATOMIC_RELAXED) >> bit & 1) != 0) {
-        return false; // a relative's
-    }
-    return (brick->contested >> fr_voxels_cube(layer, bit) & 1) == 0 ||
-           __atomic_load_n(fr_voxels_at(brick, cell), __ATOMIC_RELAXED) == own;
-}
-
 /// A winner takes the cells in which it is the first; a loser leaves them as they were.
-static void settle(const Round *round, FrProposal *proposal, FrCell *cells) {
-    FrBrick *brick = NULL;
+static void settle(const Round *round, FrProposal *proposal, FrCellPlace *places) {
+    (void)round;
     for (uint32_t k = 1; k < proposal->cell_count; k++) {
-        brick = fr_voxels_next_brick(round->growth->voxels, cells, k, brick);
-        unsigned layer = (unsigned)cells[k].at[2] & 7;
-        __atomic_store_n(&brick->asked[layer], 0, __ATOMIC_RELAXED);
-        if (!has_first(brick, cells[k], proposal->own)) {
+        const FrCellPlace *place = &places[k];
+        FrBrick *brick = place->brick;
+        uint64_t bit = UINT64_C(1) << place->bit;
+        uint32_t *owner = &brick->owners[fr_voxels_slot(place->layer, place->bit)];
+        __atomic_store_n(&brick->asked[place->layer], 0, __ATOMIC_RELAXED);
+        bool is_relative =
+            (__atomic_load_n(&brick->taken[place->layer], __ATOMIC_RELAXED) & bit) != 0;
+        if (is_relative ||
+            (is_contested(place) && __atomic_load_n(owner, __ATOMIC_RELAXED) != proposal->own)) {
             continue;
         }
         if (proposal->next == FR_PROPOSAL_WON) {
-            __atomic_fetch_or(&brick->taken[layer], UINT64_C(1) << fr_voxels_bit(cells[k]),
-                              __ATOMIC_RELAXED);
+            __atomic_fetch_or(&brick->taken[place->layer], bit, __ATOMIC_RELAXED);
         } else {
-            __atomic_store_n(fr_voxels_at(brick, cells[k]), FR_VOXEL_FREE, __ATOMIC_RELAXED);
+            __atomic_store_n(owner, FR_VOXEL_FREE, __ATOMIC_RELAXED);
         }
     }
     proposal->state = proposal->next;

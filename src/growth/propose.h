@@ -25,6 +25,13 @@ struct FrProposal {
     uint8_t state, next;
 };
 
+/// A cell of a segment, and where its memory is: looked up once for all that is asked about it.
+typedef struct FrCellPlace {
+    FrBrick *brick; ///< NULL: none yet
+    FrCell cell;
+    uint8_t layer, bit; ///< in the brick
+} FrCellPlace;
+
 /// True if one owner's proposal comes before another's. Equal keys hardly ever occur.
 static inline bool fr_claim_is_before(const FrGrowth *growth, uint32_t one, uint32_t other) {
     uint64_t a = growth->owners[one].key, b = growth->owners[other].key;
@@ -37,15 +44,18 @@ void fr_growth_settle(FrGrowth *growth, uint32_t *open, uint32_t count, const Fr
 // ---- path.c -----------------------------------------------------------------------------------
 /// Bytes that the segment of a proposal takes, with at most so many cells.
 uint32_t fr_path_stride(uint32_t cells);
+/// Where the cells of a segment are.
+void fr_path_find(const FrVoxels *voxels, const FrCell *cells, uint32_t count, FrCellPlace *places);
 /// Keeps the cells of a proposal's segment, `cell_count` of them.
-void fr_path_keep(const FrGrowth *growth, FrProposal *proposal, const FrCell *cells);
-/// The kept cells.
-void fr_path_cells(const FrGrowth *growth, const FrProposal *proposal, FrCell *cells);
+void fr_path_keep(const FrGrowth *growth, FrProposal *proposal, const FrCellPlace *places);
+/// The kept cells; the first of several, which nothing is asked about, is left out.
+void fr_path_places(const FrGrowth *growth, const FrProposal *proposal, FrCellPlace *places);
 
 // ---- collide.c --------------------------------------------------------------------------------
 /// The cell that a proposal ends in; false if it ends outside of the voxels.
 bool fr_growth_tip(const FrGrowth *growth, const FrProposal *proposal, FrCell *tip);
 /// True if nothing that stands is in a proposal's way; then these are its cells.
-bool fr_growth_is_free(const FrGrowth *growth, FrProposal *proposal, FrCell *cells);
+bool fr_growth_is_free(const FrGrowth *growth, FrProposal *proposal, FrCellPlace *places);
 /// True if nobody who asks for its cells comes before it.
-bool fr_growth_is_first(const FrGrowth *growth, const FrProposal *proposal, const FrCell *cells);
+bool fr_growth_is_first(const FrGrowth *growth, const FrProposal *proposal,
+                        const FrCellPlace *places);
