@@ -68,7 +68,8 @@ typedef struct FrGrowthObstacle {
 /// said to be borrowed.
 typedef struct FrGrowthSetup {
     FrGrowthParams params;
-    const FrSpecies *species; ///< what they point to is borrowed as long as the growth lives
+    const FrSpecies *species; ///< what they point to is borrowed as long as the growth lives; NULL
+                              ///< for fr_growth_change(): they stay as they are
     uint32_t species_count;
     const FrGrowthObstacle *obstacles;
     uint32_t obstacle_count;

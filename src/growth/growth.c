@@ -44,7 +44,7 @@ static FrStatus check_setup(const FrGrowthSetup *setup, double cell, const FrCon
             return FR_ERR_DOCUMENT;
         }
     }
-    for (uint32_t i = 0; i < setup->species_count; i++) {
+    for (uint32_t i = 0; i < setup->species_count && setup->species != NULL; i++) {
         const FrSpeciesParams *species = &setup->species[i].params;
         if (species->collide && cells_crossed(cell, species) > FR_WALK_CELLS) {
             fr_diags_add(context->diags, FR_ERROR, "cell-step", (FrSpan){0},
@@ -156,7 +156,9 @@ static FrStatus take_setup(FrGrowth *growth, const FrGrowthSetup *setup, const F
     growth->suns = setup->suns == NULL
                        ? NULL
                        : g_memdup2(setup->suns, (size_t)setup->params.suns * sizeof(vec3s));
-    take_species(growth, setup);
+    if (setup->species != NULL) {
+        take_species(growth, setup);
+    }
     take_obstacles(growth, setup);
     FrStatus status = fr_growth_take_supports(growth, context);
     return status == FR_OK ? fr_growth_stand_obstacles(growth, context) : status;
@@ -251,7 +253,9 @@ FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSetup *setup, const Fr
         growth->is_world_new = true;
         growth->older_states = growth->history->len;
     }
-    drop_species(&old);
+    if (setup->species != NULL) {
+        drop_species(&old);
+    }
     drop_obstacles(&old);
     fr_growth_find_bark(growth, context);
     return status;

@@ -1,18 +1,19 @@
-/// Free space, asked by plants that know no voxels: distances to surfaces of wood and obstacles.
-/// Ways ahead are walked in steps that are as long as nothing is nearer (Hart 1996, Sphere
-/// Tracing).
+/// Free space, asked by plants that know no voxels: distances to wood and obstacles. What grows is
+/// new in every step, so its internodes are taken as they are, round, and not as surfaces. Ways
+/// ahead are walked in steps that are as long as nothing is nearer (Hart 1996, Sphere Tracing).
 #include "scene/clearance.h"
 
 #include "growth/obstacles.h"
 #include "scene/solids.h"
+#include "space/stems.h"
 
 #include <math.h>
 #include <string.h>
 
 struct FrClearance {
-    FrDistance *still;   ///< obstacles and finished plants; NULL: none
-    FrDistance **moving; ///< by plant of the scene, of its stand; NULL: nothing there yet
-    uint8_t *is_moving;  ///< by plant of the scene
+    FrDistance *still;  ///< obstacles and finished plants; NULL: none
+    FrStems **moving;   ///< by plant of the scene, of its stand; NULL: nothing there yet
+    uint8_t *is_moving; ///< by plant of the scene
     uint32_t count;
 };
 
@@ -22,7 +23,7 @@ void fr_clearance_free(FrClearance *room) {
     }
     fr_distance_free(room->still);
     for (uint32_t i = 0; i < room->count; i++) {
-        fr_distance_free(room->moving[i]);
+        fr_stems_free(room->moving[i]);
     }
     g_free(room->moving);
     g_free(room->is_moving);
@@ -60,7 +61,7 @@ FrStatus fr_clearance_new(const FrScene *scene, const uint8_t *is_moving, const 
                           FrClearance **room) {
     FrClearance *made = g_new0(FrClearance, 1);
     made->count = scene->plants->len;
-    made->moving = g_new0(FrDistance *, made->count + 1u);
+    made->moving = g_new0(FrStems *, made->count + 1u);
     made->is_moving = g_memdup2(is_moving, made->count + 1u);
     forget_single(made);
     FrSolids solids = fr_solids_new();
@@ -85,26 +86,62 @@ FrStatus fr_clearance_new(const FrScene *scene, const uint8_t *is_moving, const 
     return status;
 }
 
+// ---- plants that move -------------------------------------------------------------------------
+
+static void stand_point(const FrStand *stand, vec3s at, double world[3]) {
+    double sine = sin(stand->turn), cosine = cos(stand->turn);
+    double x = (double)at.x * stand->scale, y = (double)at.y * stand->scale;
+    world[0] = stand->at[0] + cosine * x - sine * y;
+    world[1] = stand->at[1] + sine * x + cosine * y;
+    world[2] = stand->at[2] + (double)at.z * stand->scale;
+}
+
+/// The internodes of a plant where it stands; returns how many are seen.
+static uint32_t find_stems(const FrPlant *plant, const FrStand *stand, FrStem *stems) {
+    const uint16_t unseen = FR_SHED | FR_HIDDEN;
+    const FrNodes *nodes = &plant->nodes;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < nodes->count; i++) {
+        uint32_t axis = nodes->axis[i], parent = nodes->parent[i];
+        if (((nodes->flags[i] | plant->axes.flags[axis]) & unseen) != 0 || nodes->length[i] <= 0) {
+            continue;
+        }
+        bool is_first = plant->axes.first[axis] == i;
+        vec3s base = is_first ? fr_plant_axis_origin(plant, axis) : nodes->position[parent];
+        float radius = is_first ? plant->axes.base_radius[axis] : nodes->radius[parent];
+        FrStem *stem = &stems[count++];
+        stand_point(stand, base, stem->from);
+        stand_point(stand, nodes->position[i], stem->to);
+        stem->radius[0] = (double)radius * stand->scale;
+        stem->radius[1] = (double)nodes->radius[i] * stand->scale;
+    }
+    return count;
+}
+
 FrStatus fr_clearance_update(FrClearance *room, const FrScene *scene, const FrContext *context) {
-    FrStatus status = FR_OK;
-    for (guint i = 0; i < scene->stands->len && status == FR_OK; i++) {
+    for (guint i = 0; i < scene->stands->len; i++) {
         const FrStand *stand = &g_array_index(scene->stands, FrStand, i);
         const FrPlant *plant = plant_of(scene, stand);
         if (!room->is_moving[stand->plant]) {
             continue;
         }
-        g_clear_pointer(&room->moving[stand->plant], fr_distance_free);
-        FrSolids solids = fr_solids_new();
-        if (plant != NULL) {
-            status = fr_solids_add_wood(&solids, plant, stand, context);
+        g_clear_pointer(&room->moving[stand->plant], fr_stems_free);
+        uint64_t count = plant == NULL ? 0 : plant->nodes.count;
+        FrStatus status = fr_limit_check(
+            fr_count_add(fr_stems_bytes(count), fr_count_multiply(count, sizeof(FrStem))),
+            context->limits.bytes, "bytes", "the room of plants", (FrSpan){0}, context->diags);
+        if (status != FR_OK) {
+            return status;
         }
-        if (status == FR_OK) {
-            status = join(&solids, context, &room->moving[stand->plant]);
-        }
-        fr_solids_clear(&solids);
+        FrStem *stems = g_new(FrStem, count + 1);
+        uint32_t seen = plant == NULL ? 0 : find_stems(plant, stand, stems);
+        room->moving[stand->plant] = fr_stems_new(stems, seen);
+        g_free(stems);
     }
-    return status;
+    return FR_OK;
 }
+
+// ---- asking -----------------------------------------------------------------------------------
 
 double fr_clearance_around(const FrClearance *room, const double at[3], uint32_t own) {
     double nearest = FR_CLEARANCE_FREE, outward[3];
@@ -112,8 +149,8 @@ double fr_clearance_around(const FrClearance *room, const double at[3], uint32_t
         nearest = fmin(nearest, fr_distance_within(room->still, at, nearest, outward));
     }
     for (uint32_t i = 0; i < room->count && nearest > 0; i++) {
-        if (i != own && room->moving[i] != NULL) {
-            nearest = fmin(nearest, fr_distance_within(room->moving[i], at, nearest, outward));
+        if (i != own) {
+            nearest = fmin(nearest, fr_stems_near(room->moving[i], at, nearest, 0).distance);
         }
     }
     return fmax(nearest, 0);

@@ -150,21 +150,15 @@ static FrStatus add_solids(const FrEcosystem *ecosystem, FrHabitat *habitat, con
     return status;
 }
 
-static FrHabitat set_up(const FrEcosystem *ecosystem, const FrScene *scene) {
-    FrHabitat habitat = fr_habitat_new(ecosystem->document, ecosystem->seed, scene);
-    FrGrowthParams *params = &habitat.setup.params;
+static void remember_steps(const FrEcosystem *ecosystem, FrHabitat *habitat) {
+    FrGrowthParams *params = &habitat->setup.params;
     params->history = MAX(params->history, (int64_t)ecosystem->history);
-    return habitat;
 }
 
-static FrStatus make_habitat(const FrEcosystem *ecosystem, const FrScene *scene,
-                             const FrHills *hills, const FrContext *context, FrHabitat *habitat) {
-    *habitat = set_up(ecosystem, scene);
-    FrStatus status = add_solids(ecosystem, habitat, scene, hills, context);
-    if (status != FR_OK) {
-        fr_habitat_clear(habitat);
-    }
-    return status;
+static FrHabitat set_up(const FrEcosystem *ecosystem, const FrScene *scene) {
+    FrHabitat habitat = fr_habitat_new(ecosystem->document, ecosystem->seed, scene);
+    remember_steps(ecosystem, &habitat);
+    return habitat;
 }
 
 /// Hands the species on: the growth borrows what they point to.
@@ -254,9 +248,10 @@ static void tell_ground(const FrEcosystem *ecosystem, uint32_t first, const FrSc
 
 static FrStatus begin(FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
                       const FrContext *context) {
-    FrHabitat habitat;
-    FrStatus status = make_habitat(ecosystem, scene, hills, context, &habitat);
+    FrHabitat habitat = set_up(ecosystem, scene);
+    FrStatus status = add_solids(ecosystem, &habitat, scene, hills, context);
     if (status != FR_OK) {
+        fr_habitat_clear(&habitat);
         return status;
     }
     const FrEcosystem *previous = ecosystem->previous;
@@ -315,18 +310,16 @@ FrStatus fr_ecosystem_check(const FrEcosystem *ecosystem, const FrScene *scene,
 
 FrStatus fr_ecosystem_renew(FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
                             const FrContext *context) {
-    FrHabitat habitat;
-    FrStatus status = make_habitat(ecosystem, scene, hills, context, &habitat);
+    FrHabitat habitat = fr_habitat_without_species(ecosystem->document, ecosystem->seed, scene);
+    habitat.setup.species_count = ecosystem->definitions->len;
+    remember_steps(ecosystem, &habitat);
+    FrStatus status = add_solids(ecosystem, &habitat, scene, hills, context);
     if (status == FR_OK) {
         Told told = listen(context);
         status = fr_growth_change(ecosystem->growth, fr_habitat_setup(&habitat), &told.context);
         tell(&told, ecosystem->document);
-        if (status == FR_OK) {
-            keep_species(ecosystem, &habitat);
-        } else {
-            fr_habitat_clear(&habitat);
-        }
     }
+    fr_habitat_clear(&habitat);
     return status;
 }
 

@@ -21,6 +21,7 @@ void fr_sprout_free(void *data) {
     FrSprout *sprout = data;
     fr_lderivation_free(sprout->derivation);
     fr_answers_clear(&sprout->answers);
+    fr_plant_free(sprout->ahead);
     g_free(sprout->id);
     g_free(sprout);
 }
@@ -84,6 +85,20 @@ static bool is_growing(const FrGrowing *growing, const FrSprout *sprout) {
            !fr_lderivation_is_stopped(sprout->derivation);
 }
 
+/// Draws a plant as it is now, if that has not been done.
+static FrStatus draw_ahead(FrSprout *sprout, const FrContext *context) {
+    if (sprout->ahead != NULL) {
+        return FR_OK;
+    }
+    FrStatus status =
+        fr_lderivation_look(sprout->derivation, context, &sprout->ahead, &sprout->drawn);
+    if (status == FR_OK) {
+        g_free(sprout->ahead->name);
+        sprout->ahead->name = g_strdup(sprout->id);
+    }
+    return status;
+}
+
 FrStatus fr_growing_draw(FrGrowing *growing, FrScene *scene, const FrContext *context,
                          GPtrArray *old) {
     uint64_t bytes = 0;
@@ -93,17 +108,15 @@ FrStatus fr_growing_draw(FrGrowing *growing, FrScene *scene, const FrContext *co
     }
     FrStatus status = FR_OK;
     for (guint i = 0; i < growing->sprouts->len && status == FR_OK; i++) {
-        const FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
+        FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
         FrScenePlant *plant = &g_array_index(scene->plants, FrScenePlant, sprout->plant);
-        FrPlant *drawn;
-        status = fr_lderivation_look(sprout->derivation, context, &drawn, &plant->drawn);
+        status = draw_ahead(sprout, context);
         if (status == FR_OK) {
-            g_free(drawn->name);
-            drawn->name = g_strdup(sprout->definition->id);
             g_ptr_array_add(old, plant->plant);
-            plant->plant = drawn;
+            plant->plant = g_steal_pointer(&sprout->ahead);
+            plant->drawn = sprout->drawn;
             plant->modules = fr_lstring_count(fr_lderivation_string(sprout->derivation));
-            bytes = fr_count_add(bytes, fr_plant_bytes(drawn));
+            bytes = fr_count_add(bytes, fr_plant_bytes(plant->plant));
             status = fr_limit_check(bytes, context->limits.bytes, "bytes", "the scene",
                                     sprout->definition->span, context->diags);
         }
@@ -111,26 +124,30 @@ FrStatus fr_growing_draw(FrGrowing *growing, FrScene *scene, const FrContext *co
     return status;
 }
 
-FrStatus fr_growing_exchange(const FrGrowing *growing, FrScene *scene, const FrContext *context,
-                             GPtrArray *other) {
-    FrStatus status = FR_OK;
-    bool is_first = other->len == 0;
-    for (guint i = 0; i < growing->sprouts->len && is_first && status == FR_OK; i++) {
-        const FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
-        FrPlant *drawn;
-        status = fr_lderivation_look(sprout->derivation, context, &drawn, NULL);
-        if (status == FR_OK) {
-            g_ptr_array_add(other, drawn);
-        }
-    }
-    for (guint i = 0; i < growing->sprouts->len && status == FR_OK; i++) {
-        const FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
+/// In both directions.
+static void exchange(const FrGrowing *growing, FrScene *scene) {
+    for (guint i = 0; i < growing->sprouts->len; i++) {
+        FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
         FrScenePlant *plant = &g_array_index(scene->plants, FrScenePlant, sprout->plant);
         FrPlant *shown = plant->plant;
-        plant->plant = other->pdata[i];
-        other->pdata[i] = shown;
+        plant->plant = sprout->ahead;
+        sprout->ahead = shown;
+    }
+}
+
+FrStatus fr_growing_show_ahead(FrGrowing *growing, FrScene *scene, const FrContext *context) {
+    FrStatus status = FR_OK;
+    for (guint i = 0; i < growing->sprouts->len && status == FR_OK; i++) {
+        status = draw_ahead(g_ptr_array_index(growing->sprouts, i), context);
+    }
+    if (status == FR_OK) {
+        exchange(growing, scene);
     }
     return status;
+}
+
+void fr_growing_show_again(FrGrowing *growing, FrScene *scene) {
+    exchange(growing, scene);
 }
 
 static FrStatus ask_all(FrGrowing *growing, const FrContext *context) {
@@ -151,6 +168,7 @@ static FrStatus derive_all(FrGrowing *growing, const FrContext *context) {
         FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
         growing->asking = sprout;
         if (is_growing(growing, sprout)) {
+            g_clear_pointer(&sprout->ahead, fr_plant_free);
             status = fr_lderivation_run(sprout->derivation, 1, context);
         }
     }

@@ -41,10 +41,12 @@ bool fr_growing_has_steps(const FrGrowing *growing);
 bool fr_growing_go_on(FrGrowing *growing, const FrGrowing *next);
 /// One time around the loop.
 FR_MUST_USE FrStatus fr_growing_step(FrGrowing *growing, FrScene *scene, const FrContext *context);
-/// The plants as they have been derived, which the scene's show one step later: those of the scene
-/// are exchanged with `other` (FrPlant *), which is filled if it is empty.
-FR_MUST_USE FrStatus fr_growing_exchange(const FrGrowing *growing, FrScene *scene,
-                                         const FrContext *context, GPtrArray *other);
+/// Shows the plants as they are now, which may be a step ahead of those shown. On failure all stays
+/// as it was.
+FR_MUST_USE FrStatus fr_growing_show_ahead(FrGrowing *growing, FrScene *scene,
+                                           const FrContext *context);
+/// Shows those again that were shown before.
+void fr_growing_show_again(FrGrowing *growing, FrScene *scene);
 /// Tells that these plants of the scene (FrPlant *; NULL: all) are freed.
 void fr_growing_detach(FrGrowing *growing, const GPtrArray *plants);
 /// The scene's plants as they have been derived; `old` receives those that were there before.

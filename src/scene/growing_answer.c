@@ -93,6 +93,22 @@ static void answer_space(const FrGrowing *growing, const FrLquery *query) {
     }
 }
 
+typedef struct Asking {
+    const FrGrowing *growing;
+    const FrLquery *queries;
+} Asking;
+
+static void answer_spaces(void *data, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Asking *asking = data;
+    for (size_t i = begin; i < end; i++) {
+        const FrLquery *query = &asking->queries[i];
+        if (query->symbol == 'D' || query->symbol == 'E') {
+            answer_space(asking->growing, query);
+        }
+    }
+}
+
 static FrStatus answer_anew(FrGrowing *growing, const FrLquery *queries, size_t count,
                             const FrContext *context) {
     const FrSprout *sprout = growing->asking;
@@ -106,10 +122,10 @@ static FrStatus answer_anew(FrGrowing *growing, const FrLquery *queries, size_t 
     if (status == FR_OK) {
         status = answer_lights(growing, queries, count, context);
     }
-    for (size_t i = 0; i < count && status == FR_OK && growing->clearance != NULL; i++) {
-        if (queries[i].symbol == 'D' || queries[i].symbol == 'E') {
-            answer_space(growing, &queries[i]);
-        }
+    if (status == FR_OK && growing->clearance != NULL) {
+        enum { GRAIN = 64 };
+        Asking asking = {growing, queries};
+        fr_parallel_for(context->pool, count, GRAIN, answer_spaces, &asking, NULL);
     }
     return status;
 }

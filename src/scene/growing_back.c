@@ -45,6 +45,7 @@ static bool go_to(FrGrowing *growing, FrSprout *sprout, const FrAnswers *from, c
                   const FrContext *context) {
     FrSprout made = *sprout;
     made.derivation = NULL;
+    made.ahead = NULL;
     made.answers = fr_answers_new();
     g_array_append_vals(made.answers.words, from->words->data, place->words);
     growing->is_regrowing = true;
@@ -55,6 +56,7 @@ static bool go_to(FrGrowing *growing, FrSprout *sprout, const FrAnswers *from, c
     fr_lderivation_free(dropped->derivation);
     fr_answers_clear(&dropped->answers);
     if (status == FR_OK) {
+        fr_plant_free(sprout->ahead);
         *sprout = made;
     }
     return status == FR_OK;

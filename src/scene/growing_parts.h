@@ -15,6 +15,8 @@ typedef struct FrSprout {
     uint32_t plant; ///< of the scene
     int64_t seed;
     FrAnswers answers; ///< to its open symbols so far
+    FrPlant *ahead;    ///< it as it is now, drawn for others before its own next step; NULL
+    FrLdrawn drawn;    ///< of that
 } FrSprout;
 
 struct FrGrowing {

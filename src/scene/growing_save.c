@@ -73,6 +73,7 @@ static FrStatus take_sprout(FrGrowing *growing, const FrSprout *old, const uint8
     *sprout = *old;
     sprout->id = g_strdup(old->id);
     sprout->derivation = NULL;
+    sprout->ahead = NULL;
     sprout->answers = fr_answers_new();
     if (!take(at, left, &head, sizeof head) || head.words > *left / sizeof(uint32_t)) {
         return FR_ERR_DOCUMENT;

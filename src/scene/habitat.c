@@ -50,11 +50,18 @@ static void find_suns(FrHabitat *habitat, const FrScene *scene) {
     habitat->setup.suns = habitat->suns;
 }
 
-FrHabitat fr_habitat_new(const FrDocument *document, int64_t seed, const FrScene *scene) {
+FrHabitat fr_habitat_without_species(const FrDocument *document, int64_t seed,
+                                     const FrScene *scene) {
     FrHabitat habitat = {.setup = {.params = fr_document_growth(document)->params},
                          .solids = fr_solids_new()};
     FrGrowthParams *params = &habitat.setup.params;
     params->seed = seed < 0 ? params->seed : seed % 1000000000;
+    find_suns(&habitat, scene);
+    return habitat;
+}
+
+FrHabitat fr_habitat_new(const FrDocument *document, int64_t seed, const FrScene *scene) {
+    FrHabitat habitat = fr_habitat_without_species(document, seed, scene);
     guint count = 0;
     const GPtrArray *plants = fr_document_plants(document);
     habitat.species = g_new0(FrSpecies, plants->len + 1);
@@ -68,7 +75,6 @@ FrHabitat fr_habitat_new(const FrDocument *document, int64_t seed, const FrScene
     }
     habitat.setup.species = habitat.species;
     habitat.setup.species_count = count;
-    find_suns(&habitat, scene);
     return habitat;
 }
 

@@ -15,6 +15,9 @@ typedef struct FrHabitat {
 
 /// All but the solids. `seed` < 0: that of the document.
 FrHabitat fr_habitat_new(const FrDocument *document, int64_t seed, const FrScene *scene);
+/// The same for a growth that keeps its species.
+FrHabitat fr_habitat_without_species(const FrDocument *document, int64_t seed,
+                                     const FrScene *scene);
 /// One species alone on level ground, under a sky without sun.
 FrHabitat fr_habitat_of_one(const FrDocument *document, const FrPlantDef *definition);
 /// Its species are freed unless they were taken out.

@@ -50,15 +50,12 @@ static FrStatus draw(FrSimulation *simulation, const FrContext *context, GPtrArr
 
 /// What grows bud by bud keeps off the others as they are now.
 static FrStatus renew(FrSimulation *simulation, const FrContext *context) {
-    GPtrArray *grown = g_ptr_array_new_with_free_func(free_plant);
-    FrStatus status = fr_growing_exchange(simulation->growing, simulation->scene, context, grown);
+    FrStatus status = fr_growing_show_ahead(simulation->growing, simulation->scene, context);
     if (status == FR_OK) {
         status = fr_ecosystem_renew(simulation->ecosystem, simulation->scene, simulation->hills,
                                     context);
-        FrStatus back = fr_growing_exchange(simulation->growing, simulation->scene, context, grown);
-        FR_ASSERT(back == FR_OK);
+        fr_growing_show_again(simulation->growing, simulation->scene);
     }
-    g_ptr_array_unref(grown);
     return status;
 }
 

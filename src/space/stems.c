@@ -106,14 +106,21 @@ uint32_t fr_stems_count(const FrStems *stems) {
 
 // ---- asking -----------------------------------------------------------------------------------
 
-/// Nothing in a box is nearer than this.
-static double bound(const Node *node, const double at[3]) {
+/// Square of the distance of a point from a box.
+static inline double box_square(const Node *node, const double at[3]) {
     double square = 0;
     for (int r = 0; r < 3; r++) {
-        double off = fmax(fmax(node->min[r] - at[r], at[r] - node->max[r]), 0);
-        square += off * off;
+        double below = node->min[r] - at[r], above = at[r] - node->max[r];
+        double off = below > above ? below : above;
+        square += off > 0 ? off * off : 0;
     }
-    return sqrt(square) - node->thickest;
+    return square;
+}
+
+/// True if a stem in a box may be nearer than that.
+static inline bool may_be_nearer(const Node *node, double square, double distance) {
+    double far = distance + node->thickest;
+    return far > 0 && square < far * far;
 }
 
 /// A unit vector across the middle line, for a point on it.
@@ -141,18 +148,18 @@ static void ask(const FrStem *stem, const double at[3], double thinnest, FrBark 
         along += (at[r] - stem->from[r]) * d;
         square += d * d;
     }
-    double t = square > 0 ? fmin(fmax(along / square, 0), 1) : 0;
+    double t = along <= 0 ? 0 : along >= square ? 1 : along / square;
     for (int r = 0; r < 3; r++) {
         double on = t < 1 ? stem->from[r] + t * (stem->to[r] - stem->from[r]) : stem->to[r];
         way[r] = at[r] - on;
         off += way[r] * way[r];
     }
     double radius = stem->radius[0] + t * (stem->radius[1] - stem->radius[0]);
-    double distance = sqrt(off) - radius;
-    if (distance >= bark->distance || radius < thinnest) {
+    double far = bark->distance + radius;
+    if (radius < thinnest || far <= 0 || off >= far * far) {
         return;
     }
-    bark->distance = distance;
+    bark->distance = sqrt(off) - radius;
     bark->radius = radius;
     if (off > 1e-20) {
         for (int r = 0; r < 3; r++) {
@@ -169,15 +176,16 @@ FrBark fr_stems_near(const FrStems *stems, const double at[3], double reach, dou
     while (depth > 0) {
         uint32_t own = stack[--depth];
         const Node *node = &stems->nodes[own];
-        if (bound(node, at) >= bark.distance || node->thickest < thinnest) {
+        if (node->thickest < thinnest ||
+            !may_be_nearer(node, box_square(node, at), bark.distance)) {
             continue;
         }
         for (uint32_t k = 0; k < node->count; k++) {
             ask(&stems->stems[node->first + k], at, thinnest, &bark);
         }
         if (node->count == 0) {
-            bool is_low_near =
-                bound(&stems->nodes[own + 1], at) <= bound(&stems->nodes[node->second], at);
+            bool is_low_near = box_square(&stems->nodes[own + 1], at) <=
+                               box_square(&stems->nodes[node->second], at);
             stack[depth++] = is_low_near ? node->second : own + 1;
             stack[depth++] = is_low_near ? own + 1 : node->second;
         }

@@ -94,6 +94,32 @@ static void test_widened(void) {
     world_clear(&world);
 }
 
+/// Grown for some steps, then on beside a sheet above.
+static FrDigest under_sheet(bool names_species) {
+    static const vec3s corners[4] = {
+        {{-9, -9, 1.6f}}, {{9, -9, 1.6f}}, {{9, 9, 1.6f}}, {{-9, 9, 1.6f}}};
+    World world;
+    world_init(&world);
+    const FrGrowthObstacle sheet = world_sheet(corners);
+    world_sow_one(&world);
+    world_step(&world, 4);
+    world.setup.obstacles = &sheet;
+    world.setup.obstacle_count = 1;
+    world.setup.species = names_species ? &world.species : NULL;
+    g_assert_cmpint(fr_growth_change(world.growth, &world.setup, &world.context), ==, FR_OK);
+    FrGrowthStats stats = world_step(&world, 12);
+    const FrGrownPlant *plant = &world.growth->plants[0];
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        g_assert_cmpfloat(plant->nodes.at[i].z, <, 1.6f);
+    }
+    world_clear(&world);
+    return stats.digest;
+}
+
+static void test_same_species(void) {
+    g_assert_cmpuint(under_sheet(true), ==, under_sheet(false));
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func(
@@ -104,5 +130,7 @@ int main(int argc, char **argv) {
                     test_checked_seeds);
     g_test_add_func("/growth/step/a seed outside of all cells is told where the arena was widened",
                     test_widened);
+    g_test_add_func("/growth/step/species that are not named again stay when obstacles change",
+                    test_same_species);
     return g_test_run();
 }
