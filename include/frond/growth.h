@@ -143,6 +143,8 @@ FR_API FrGrowthStats fr_growth_stats(const FrGrowth *growth);
 FR_API uint64_t fr_growth_step_count(const FrGrowth *growth);
 
 FR_API uint32_t fr_growth_plant_count(const FrGrowth *growth);
+/// True if its seed waits for a place to stand.
+FR_API bool fr_growth_is_waiting(const FrGrowth *growth, uint32_t plant);
 /// True if a plant has a growing bud.
 FR_API bool fr_growth_is_alive(const FrGrowth *growth, uint32_t plant);
 /// Volume of a plant's wood, m³: its internodes as cylinders.

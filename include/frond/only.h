@@ -18,7 +18,7 @@ FR_API FrOnly *fr_only_one(uint32_t origin, uint32_t number);
 FR_API void fr_only_free(FrOnly *only);
 /// Takes all other plants and the obstacles out of a scene of that document. Those that stay are
 /// moved together, so that the first stands at the origin, unless they stay `in_place`. False, and
-/// nothing has changed, if none of them is in the scene.
+/// nothing has changed, if none of them is in the scene; seeds that have no place to stand are not.
 FR_API bool fr_only_apply(const FrOnly *only, FrScene *scene, bool in_place);
 /// A copy of what stands, or after fr_only_apply() of what that leaves (`only` NULL: everything,
 /// and obstacles); NULL if none of them is in the scene. It needs neither the scene nor the

@@ -27,6 +27,7 @@ typedef struct FrStand {
     double scale;
     uint32_t origin; ///< byte of the document where the element begins that has placed it; 0: none
     uint32_t number; ///< which of the plants of that element, a row or an area, from 0
+    bool is_waiting; ///< a seed that has no place to stand; see fr_growth_add_seeds()
 } FrStand;
 
 /// One step of plants that grow in each other's light or bud by bud.

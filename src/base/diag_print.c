@@ -156,8 +156,12 @@ static void print_diag(const FrDiag *diag, GString *out) {
     append_name(fr_source_name(span.source), out);
     g_string_append_printf(out, ":%u:%u: %s: %s [%s]\n", line, column,
                            severity_name(diag->severity), diag->text, diag->code);
-    Excerpt excerpt = find_excerpt(span);
-    print_excerpt(&excerpt, line, out);
+    size_t size;
+    fr_source_text(span.source, &size);
+    if (size > 0) { // what has no lines has none to show
+        Excerpt excerpt = find_excerpt(span);
+        print_excerpt(&excerpt, line, out);
+    }
 }
 
 void fr_diags_print(const FrDiags *diags, GString *out) {

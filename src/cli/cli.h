@@ -209,6 +209,11 @@ void cli_growth_close(CliGrowth *growth);
 /// The scene with clocks that show `time`, NAN: what the document says.
 FR_MUST_USE FrStatus cli_growth_scene(CliGrowth *growth, double time, FrScene **scene);
 
+// ---- standing.c -------------------------------------------------------------------------------
+
+/// What --only leaves of the scene, as it has grown there.
+FR_MUST_USE FrStatus cli_standing_info(CliSession *session, const FrDocument *document);
+
 // ---- verbs ------------------------------------------------------------------------------------
 
 FrStatus cli_build(CliSession *session);

@@ -139,10 +139,13 @@ void cli_growth_close(CliGrowth *growth) {
 
 FrStatus cli_growth_scene(CliGrowth *growth, double time, FrScene **scene) {
     CliSession *session = growth->session;
+    bool stays = session->options->in_place || session->verb->id == CLI_INFO;
     FrStatus status = fr_sequence_scene(growth->sequence, time, &session->context, scene);
-    if (status == FR_OK && growth->only != NULL) {
-        bool is_there = fr_only_apply(growth->only, *scene, session->options->in_place);
-        FR_ASSERT(is_there);
+    if (status == FR_OK && growth->only != NULL && !fr_only_apply(growth->only, *scene, stays)) {
+        fr_diags_add(session->context.diags, FR_ERROR, "only-seeds", (FrSpan){0},
+                     "nothing of what --only names has grown: its seeds have no place to stand");
+        g_clear_pointer(scene, fr_scene_free);
+        status = FR_ERR_DOCUMENT;
     }
     return status;
 }

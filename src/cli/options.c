@@ -304,7 +304,7 @@ static const OptionRow rows[] = {
     {"steps", 0, "N", READING, "steps of an L-system, and of growth bud by bud", take_steps},
     {"checkpoint", 0, "FILE", CLI_BUILD | CLI_RENDER,
      "write what has grown bud by bud to FILE after every step", take_checkpoint},
-    {"only", 0, "NAME", CLI_BUILD | CLI_RENDER,
+    {"only", 0, "NAME", CLI_BUILD | CLI_RENDER | CLI_INFO,
      "grow all, show of it only what is called so: oak, place-2, row.3", take_only},
     {"in-place", 0, NULL, CLI_BUILD | CLI_RENDER,
      "what --only shows stays where it stands, else it is moved to the origin", take_in_place},
@@ -448,6 +448,15 @@ static bool take_option(CliOptions *options, const CliVerb *verb, int count, cha
     return row->take(options, attached);
 }
 
+/// Options that mean nothing without another.
+static bool check_together(const CliOptions *options) {
+    if (options->in_place && options->only->len == 0) {
+        cli_message("--in-place says where the plants of --only stand; there is no --only");
+        return false;
+    }
+    return true;
+}
+
 bool cli_options_parse(CliOptions *options, const CliVerb *verb, int count, char **arguments) {
     bool are_over = false;
     for (int i = 0; i < count;) {
@@ -463,7 +472,7 @@ bool cli_options_parse(CliOptions *options, const CliVerb *verb, int count, char
         }
         i += used;
     }
-    return true;
+    return check_together(options);
 }
 
 void cli_options_print(CliVerbId verb, FILE *out) {

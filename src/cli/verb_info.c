@@ -444,18 +444,27 @@ static bool check_paths(const CliOptions *options, const FrDocument *document) {
 }
 
 FrStatus cli_info(CliSession *session) {
-    const char *path = g_ptr_array_index(session->options->files, 0);
+    const CliOptions *options = session->options;
+    const char *path = g_ptr_array_index(options->files, 0);
+    if (options->only->len > 0 && (options->paths != NULL || cli_is_model(path))) {
+        cli_message(options->paths != NULL
+                        ? "--paths and --only do not go together"
+                        : "--only names what grows in a document, not in a model");
+        return FR_ERR_USAGE;
+    }
     if (cli_is_model(path)) {
         return cli_model_info(session, path);
     }
     FrDocument *document;
     FrStatus status = cli_session_read(session, path, &document);
-    if (status == FR_OK && !check_paths(session->options, document)) {
+    if (status == FR_OK && !check_paths(options, document)) {
         status = FR_ERR_USAGE;
     }
-    if (status == FR_OK) {
-        status = session->options->is_json ? describe_as_json(session, document)
-                                           : describe_as_text(session, document);
+    if (status == FR_OK && options->only->len > 0) {
+        status = cli_standing_info(session, document);
+    } else if (status == FR_OK) {
+        status = options->is_json ? describe_as_json(session, document)
+                                  : describe_as_text(session, document);
     }
     fr_document_free(document);
     return status;

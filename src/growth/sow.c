@@ -111,6 +111,11 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
 
 // ---- seeds that wait --------------------------------------------------------------------------
 
+bool fr_growth_is_waiting(const FrGrowth *growth, uint32_t plant) {
+    FR_ASSERT(plant < growth->plant_count);
+    return growth->plants[plant].place != FR_PLACE_FREE;
+}
+
 /// True until it has made its first internode.
 static bool is_seed(const FrGrownPlant *plant) {
     return plant->place != FR_PLACE_FREE ||

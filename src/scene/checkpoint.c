@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-#define MAGIC "FrondGrown3"
+#define KIND "FrondGrown"
+#define MAGIC KIND "3"
 
 /// What stands at the beginning.
 typedef struct Head {
@@ -60,17 +61,19 @@ static const char *fault_of(const FrSimulation *simulation, const void *bytes, s
                             const Head *head, const char **code) {
     Head own = head_of(simulation);
     *code = "not-a-checkpoint";
-    if (size < sizeof *head || memcmp(head->magic, own.magic, sizeof own.magic) != 0) {
+    if (size < sizeof *head || memcmp(head->magic, KIND, strlen(KIND)) != 0) {
         return "this is no saved growth";
     }
     *code = "other-version";
-    if (memcmp(head->version, own.version, sizeof own.version) != 0) {
-        return "another version of the program has saved this growth";
+    if (memcmp(head->magic, own.magic, sizeof own.magic) != 0 ||
+        memcmp(head->version, own.version, sizeof own.version) != 0) {
+        return "another version of the program has saved this growth; only that version can go on "
+               "with it, or grow it from the seeds again";
     }
     *code = "other-document";
     if (head->belongs != own.belongs) {
-        return "this growth belongs to another document, to another state of it, or to another "
-               "seed";
+        return "this growth belongs to another document, or this one or its seed has changed "
+               "since; undo the change, or grow it from the seeds again";
     }
     *code = "damaged-checkpoint";
     size_t rest = size - sizeof *head;
@@ -80,7 +83,7 @@ static const char *fault_of(const FrSimulation *simulation, const void *bytes, s
                told % sizeof(FrSceneStep) == 0;
     const char *data = (const char *)bytes + sizeof *head;
     if (!has_size || fr_digest(0, data, rest) != head->content) {
-        return "this saved growth is damaged";
+        return "this saved growth is damaged; grow it from the seeds again";
     }
     return NULL;
 }

@@ -372,6 +372,20 @@ static void stand_apart(const FrEcosystem *ecosystem, FrScene *scene) {
     g_free(shifts);
 }
 
+/// Tells stands whose seeds wait.
+static void note_waiting(const FrEcosystem *ecosystem, FrScene *scene) {
+    bool *waits = g_new0(bool, scene->plants->len + 1u);
+    for (guint i = 0; i < fr_growth_plant_count(ecosystem->growth); i++) {
+        waits[g_array_index(ecosystem->plants, uint32_t, i)] =
+            fr_growth_is_waiting(ecosystem->growth, i);
+    }
+    for (guint i = 0; i < scene->stands->len; i++) {
+        FrStand *stand = &g_array_index(scene->stands, FrStand, i);
+        stand->is_waiting = waits[stand->plant];
+    }
+    g_free(waits);
+}
+
 FrStatus fr_ecosystem_draw(const FrEcosystem *ecosystem, FrScene *scene, const FrContext *context,
                            GPtrArray *old) {
     uint64_t bytes = 0;
@@ -392,6 +406,7 @@ FrStatus fr_ecosystem_draw(const FrEcosystem *ecosystem, FrScene *scene, const F
         status = fr_limit_check(bytes, context->limits.bytes, "bytes", "the scene",
                                 fr_document_span(ecosystem->document), context->diags);
     }
+    note_waiting(ecosystem, scene);
     if (scene->params->apart > 0) {
         stand_apart(ecosystem, scene);
     }

@@ -85,37 +85,63 @@ static char **names_of(GHashTable *elements, const char *plant, const FrStand *s
 /// for.
 typedef struct Listed {
     char *name;
-    uint32_t first, last;
+    GString *ranges;      ///< that are full: "row.0 to row.3"
+    uint32_t first, last; ///< of the range that is not
+    uint32_t range_count; ///< with that
     bool is_numbered;
 } Listed;
 
 static void clear_listed(void *data) {
-    g_free(((Listed *)data)->name);
+    Listed *listed = data;
+    g_free(listed->name);
+    g_string_free(listed->ranges, TRUE);
+}
+
+/// Ends a range; those that are too many are left out.
+static void end_range(Listed *listed) {
+    if (listed->range_count > LISTED_NAMES) {
+        return;
+    }
+    g_string_append_printf(listed->ranges, "%s%s.%u", listed->range_count > 1 ? ", " : "",
+                           listed->name, listed->first);
+    if (listed->last > listed->first) {
+        g_string_append_printf(listed->ranges, " to %s.%u", listed->name, listed->last);
+    }
+    if (listed->range_count == LISTED_NAMES) {
+        g_string_append(listed->ranges, ", …");
+    }
 }
 
 /// `known` tells where in the list a name is, and 1.
 static void list_name(GArray *listed, GHashTable *known, const char *name, const FrStand *stand,
                       bool is_numbered) {
     guint found = GPOINTER_TO_UINT(g_hash_table_lookup(known, name));
-    if (found != 0) {
-        g_array_index(listed, Listed, found - 1).last = stand->number;
+    uint32_t number = stand->number;
+    if (found == 0) {
+        Listed made = {g_strdup(name), g_string_new(NULL), number, number, 1, is_numbered};
+        g_array_append_val(listed, made);
+        g_hash_table_insert(known, made.name, GUINT_TO_POINTER(listed->len));
         return;
     }
-    Listed made = {g_strdup(name), stand->number, stand->number, is_numbered};
-    g_array_append_val(listed, made);
-    g_hash_table_insert(known, made.name, GUINT_TO_POINTER(listed->len));
+    Listed *at = &g_array_index(listed, Listed, found - 1);
+    if (at->is_numbered && (number < at->first || number > at->last + 1)) {
+        end_range(at);
+        at->range_count++;
+        at->first = number;
+    }
+    at->last = number;
 }
 
 /// "oak, place-1, row.0 to row.8"
 static char *list_all(const GArray *listed) {
     GString *text = g_string_new(listed->len == 0 ? "none" : NULL);
     for (guint i = 0; i < listed->len && i < LISTED_NAMES; i++) {
-        const Listed *at = &g_array_index(listed, Listed, i);
-        g_string_append(text, i == 0 ? "" : ", ");
-        g_string_append(text, at->name);
+        Listed *at = &g_array_index(listed, Listed, i);
         if (at->is_numbered) {
-            g_string_append_printf(text, ".%u to %s.%u", at->first, at->name, at->last);
+            end_range(at);
         }
+        g_string_append(text, i == 0 ? "" : ", ");
+        g_string_append(text, at->is_numbered ? at->ranges->str : at->name);
     }
     g_string_append(text, listed->len > LISTED_NAMES ? ", …" : "");
     return g_string_free(text, FALSE);
@@ -242,7 +268,7 @@ static guint keep_stands(const FrOnly *only, FrScene *scene) {
     FrStand *stands = (FrStand *)(void *)scene->stands->data;
     for (guint i = 0; i < count; i++) {
         gint64 key = key_of(stands[i].origin, stands[i].number);
-        if (g_hash_table_contains(only->stands, &key)) {
+        if (!stands[i].is_waiting && g_hash_table_contains(only->stands, &key)) {
             stands[kept++] = stands[i];
         }
     }

@@ -130,9 +130,15 @@ def refused(folder):
     other = folder / "other"
     other.write_bytes(whole[:16] + b"9.9.9\0" + whole[22:])
     cases.append(((PARTS, "--resume", other), "other-version"))
+    older = folder / "older"
+    older.write_bytes(whole[:10] + b"\x31" + whole[11:])
+    cases.append(((PARTS, "--resume", older), "other-version"))
     for case, code in cases:
         said = tap.run("build", *case, status=1).stderr
         assert f"[{code}]" in said, said
+        # The file is named, no line of it is shown, and what to do is said.
+        assert said.startswith(str(case[-1]) + ":1:1: error: ") and said.count("\n") == 1, said
+        assert code == "not-a-checkpoint" or "from the seeds again" in said, said
     nothing = tap.run("build", tap.SOURCE / "examples" / "figure2.frond", "--resume", saved, status=2)
     assert "grows step by step" in nothing.stderr
 

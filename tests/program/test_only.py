@@ -131,7 +131,7 @@ def unknown(folder):
     for name in ("oak", "row.1", "row.7", "row-1", "row-1.0", "place", "place-0", "place-4", "place-2.0", "obstacle", "", "row.",
                  ".", "row.-1", "row.00", "x" * 5000, "%s%n"):
         said = tap.run("build", document, f"--only={name}", "-o", folder / "none.glb", status=2).stderr
-        assert "[unknown-stand]" in said and "shrub, climber, stake, place-1, place-2, place-3, row.0 to row.6" in said, said
+        assert "[unknown-stand]" in said and "shrub, climber, stake, place-1, place-2, place-3, row.0, row.2 to row.6" in said, said
     said = tap.run("build", document, "--only", "shrubs", status=2).stderr
     assert "did you mean 'shrub'?" in said, said
     many = folder / "many.frond"
@@ -142,8 +142,55 @@ def unknown(folder):
     empty.write_text('<frond version="1"/>')
     assert "there are: none" in tap.run("build", empty, "--only", "x", status=2).stderr
     assert not (folder / "none.glb").exists()
+    gaps = folder / "gaps.frond"
+    gaps.write_text(MIXED.replace('except="1"', 'except="0 2 3 6"'))
+    said = tap.run("build", gaps, "--only", "x", status=2).stderr
+    assert "place-3, row.1, row.4 to row.5" in said and "row.6" not in said, said
     for verb in ("check", "derive"):
         tap.run(verb, document, "--only", "shrub", status=2)
+
+
+def seeds_without_place(folder):
+    """What never got a place is no model; others of the same call are."""
+    document = folder / "taken.frond"
+    document.write_text(MIXED.replace('<obstacle', '<place plant="shrub" at="2, -1, 0"/><obstacle'))
+    model = folder / "none.glb"
+    for verb, name in (("build", "none.glb"), ("render", "none.png"), ("info", None)):
+        more = ("-o", folder / name) if name else ()
+        said = tap.run(verb, document, "--only", "place-4", *more, status=1).stderr
+        assert "error: nothing of what --only names has grown" in said and "[only-seeds]" in said, said
+        assert name is None or not (folder / name).exists(), name
+    tap.run("render", document, "-o", folder / "grow.png", "--frames", "1..2", "--only", "place-4", status=1)
+    assert not list(folder.glob("*.png"))
+    (node,) = built(folder, document, "--only", "place-4", "--only", "place-1", "--in-place").nodes()
+    assert node["name"] == "shrub", node
+    assert not model.exists()
+
+
+def in_place_alone(folder):
+    """--in-place says nothing without --only, so it is a mistake."""
+    for verb, name in (("build", "x.glb"), ("render", "x.png")):
+        said = tap.run(verb, mixed(folder), "--in-place", "-o", folder / name, status=2).stderr
+        assert "there is no --only" in said and not (folder / name).exists(), said
+
+
+def told(folder):
+    """info tells of a plant as it has grown in the scene, with the numbers of its model."""
+    document = mixed(folder)
+    whole = json.loads(tap.run("info", document, "--only", "place-1", "--json").stdout)
+    (shrub,) = whole["stands"]
+    assert shrub["plant"] == "shrub" and shrub["at"] == [0, 0, 0] and shrub["nodes"] > 4, shrub
+    alone = json.loads(tap.run("info", document, "--json").stdout)["plants"]
+    assert shrub["nodes"] != next(plant["nodes"] for plant in alone if plant["id"] == "shrub"), alone
+    stats = tap.statistics(document, "--only", "place-1")
+    assert (stats["nodes"], stats["organs"]) == (shrub["nodes"], shrub["organs"]), (stats, shrub)
+    text = tap.run("info", document, "--only", "row.0", "--only", "climber").stdout.splitlines()
+    assert [line.split(": ")[0] for line in text[:2]] == ["climber at 0.8, 0, 0", "climber at -0.8, 0, 0"], text
+    assert len(text) == 3 and text[2].split(" at ")[1].startswith("-3, 1, 0: "), text
+    assert "[unknown-stand]" in tap.run("info", document, "--only", "oak", status=2).stderr
+    assert "go together" in tap.run("info", document, "--only", "stake", "--paths", "stem", status=2).stderr
+    built(folder, document)
+    assert "a model" in tap.run("info", folder / "model.glb", "--only", "stake", status=2).stderr
 
 
 def without_places(folder):
@@ -160,5 +207,8 @@ sys.exit(tap.main([
     ("several names give several plants, which keep their distances", several),
     ("pictures and sequences show it alone", pictures),
     ("a name that nothing has lists what there is", unknown),
+    ("a seed that has no place is told and nothing is written", seeds_without_place),
+    ("--in-place needs --only", in_place_alone),
+    ("info tells of a plant as it stands in the scene", told),
     ("a document without places has its first plant", without_places),
 ]))

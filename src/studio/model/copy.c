@@ -110,8 +110,9 @@ FrStatus studio_copy_take(StudioCopy *copy, const FrContext *context, FrScene **
         return is_made ? FR_OK : FR_CANCELLED;
     }
     if (stands) {
-        fr_diags_add(context->diags, FR_ERROR, "unknown-stand", (FrSpan){0},
-                     "the plant does not stand in the scene any more");
+        fr_diags_add(
+            context->diags, FR_ERROR, "unknown-stand", (FrSpan){0},
+            "the plant does not stand in the scene any more, or its seed has no place there");
     } else {
         fr_diags_add(context->diags, FR_ERROR, "nothing-stands", (FrSpan){0},
                      "nothing could be made of this document that could be written");
