@@ -114,25 +114,28 @@ static const char shortcuts[] =
     "%s</object></child></object></interface>";
 
 typedef struct Shortcut {
-    const char *group, *keys, *title; ///< `group` NULL: as before
+    const char *group, *keys, *title; ///< `group` NULL: as before; `keys`, or the action they do
 } Shortcut;
 
 static const Shortcut rows[] = {
-    {"Document", "<Control>n", "New window"},
-    {NULL, "<Control>o", "Open"},
-    {NULL, "<Control>s", "Save"},
-    {NULL, "<Control><Shift>s", "Save as"},
-    {NULL, "<Control>e", "Export"},
-    {NULL, "<Control><Shift>e", "Export the plant that is chosen"},
-    {NULL, "<Control>z", "Undo"},
-    {NULL, "<Control><Shift>z", "Redo"},
-    {NULL, "F8", "Go to the first problem"},
-    {"Components", "<Control>d", "Duplicate"},
+    {"Document", "win.new", "New window"},
+    {NULL, "win.open", "Open"},
+    {NULL, "win.save", "Save"},
+    {NULL, "win.save-as", "Save as"},
+    {NULL, "win.export", "Export"},
+    {NULL, "win.export-one", "Export the plant that is chosen"},
+    {NULL, "win.screenshot", "Save the picture"},
+    {NULL, "win.undo", "Undo"},
+    {NULL, "win.redo", "Redo"},
+    {NULL, "win.problem", "Go to the first problem"},
+    {NULL, "window.close", "Close the window"},
+    {NULL, "app.quit", "Quit"},
+    {"Components", "win.duplicate", "Duplicate"},
     {NULL, "<Control>c", "Copy with all beneath it"},
     {NULL, "<Control>v", "Paste onto the selected one"},
     {NULL, "Delete", "Remove"},
-    {NULL, "<Control>k", "Enable or disable"},
-    {NULL, "<Control>r", "Roll another seed"},
+    {NULL, "win.toggle-enabled", "Enable or disable"},
+    {NULL, "win.roll", "Roll another seed"},
     {"Scene", "m", "Move, turn and size what stands"},
     {NULL, "p", "Plant"},
     {NULL, "b", "Paint plants"},
@@ -149,17 +152,32 @@ static const Shortcut rows[] = {
     {NULL, "3", "Skeleton"},
     {NULL, "w", "Wind"},
     {NULL, "Left Right Up Down", "Turn; with Shift, move"},
-    {NULL, "<Control>plus", "Nearer"},
-    {NULL, "<Control>minus", "Farther"},
-    {NULL, "<Control>t", "Sketch: draw the shape of branches"},
-    {"Panels", "<Alt>1", "Graph"},
-    {NULL, "<Alt>2", "Contents"},
-    {NULL, "<Alt>3", "Text"},
-    {NULL, "<Alt>4", "Light"},
-    {NULL, "F9", "Show or fold the panel at the left"},
-    {NULL, "<Shift>F9", "Show or fold the inspector"},
-    {NULL, "F1", "Help"},
+    {NULL, "win.zoom(0.8)", "Nearer"},
+    {NULL, "win.zoom(1.25)", "Farther"},
+    {NULL, "win.sketch", "Sketch: draw the shape of branches"},
+    {"Panels", "win.side('graph')", "Graph"},
+    {NULL, "win.side('things')", "Contents"},
+    {NULL, "win.side('text')", "Text"},
+    {NULL, "win.side('light')", "Light"},
+    {NULL, "win.show-panel", "Show or fold the panel at the left"},
+    {NULL, "win.show-inspector", "Show or fold the inspector"},
+    {NULL, "<Shift>F8", "Go to the dividers"},
+    {NULL, "win.preferences", "Preferences"},
+    {NULL, "win.shortcuts", "Keyboard shortcuts"},
+    {NULL, "win.help", "Help"},
 };
+
+// The keys of a row: of an action those that the program has for it. Free with g_free().
+static char *keys_of(StudioWindow *window, const char *keys) {
+    if (strchr(keys, '.') == NULL) {
+        return g_strdup(keys);
+    }
+    char **all =
+        gtk_application_get_accels_for_action(gtk_window_get_application(GTK_WINDOW(window)), keys);
+    char *first = g_strdup(all[0] == NULL ? "" : all[0]);
+    g_strfreev(all);
+    return first;
+}
 
 void studio_window_show_shortcuts(StudioWindow *window) {
     GString *groups = g_string_new(NULL);
@@ -170,12 +188,14 @@ void studio_window_show_shortcuts(StudioWindow *window) {
                                    "<property name='title'>%s</property>",
                                    i == 0 ? "" : "</object></child>", rows[i].group);
         }
+        char *keys = keys_of(window, rows[i].keys);
         char *row = g_markup_printf_escaped(
             "<child><object class='GtkShortcutsShortcut'><property name='accelerator'>%s</property>"
             "<property name='title'>%s</property></object></child>",
-            rows[i].keys, rows[i].title);
+            keys, rows[i].title);
         g_string_append(groups, row);
         g_free(row);
+        g_free(keys);
     }
     g_string_append(groups, "</object></child>");
     char *text = g_strdup_printf(shortcuts, groups->str);

@@ -15,12 +15,19 @@
 ///   focus, focus all       answers what has the keyboard; all that may have it
 ///   turn AZIMUTH ELEVATION ZOOM    the view, by degrees and a factor
 ///   orbit FRAMES           turns the view so often; answers how many seconds that took
-///   where NAME             answers X Y WIDTH HEIGHT of a widget, or of the box of a component;
-///                        at:X,Y,Z is a point of the scene
+///   where NAME             answers X Y WIDTH HEIGHT of a widget by its name or by what it says, in
+///   a dialog
+///                        first, or of the box of a component; at:X,Y,Z is a point of the scene
+///   needs NAME             answers WIDTH HEIGHT that a widget needs at least
+///   text NAME              answers what a widget says; of a switch, "on" or "off"
 ///   write FILE             the text as it is, to a file that the document does not have then
 ///   colour X Y             answers R G B of what is shown there, as `where` counts
 ///   picture FILE           writes a PNG of the window
 ///   picture-of-dialog FILE, close-dialog    the same of the dialog above it, which goes
+///   dialog                 answers what that dialog is called; "nothing": there is none
+///   windows, window N      answers the numbers of all windows; goes on with another one
+///   pen down|move X Y PRESSURE TILT SECONDS, pen up    what a pen tells the board of the sketch
+///                        mode, at the places of `where`; nan: it does not tell
 ///   keep, restore          writes the copy for a crash; opens what a crash has left
 ///   state                  answers with what the document and the view are, as JSON
 ///   sketch                  answers with what is chosen and drawn in the sketch mode, as JSON

@@ -20,6 +20,7 @@ static void add_keys(GtkApplication *application) {
         {"win.save-as", {"<Control><Shift>s"}},
         {"win.export", {"<Control>e"}},
         {"win.export-one", {"<Control><Shift>e"}},
+        {"win.screenshot", {"<Control><Shift>p"}},
         {"win.undo", {"<Control>z"}},
         {"win.redo", {"<Control><Shift>z", "<Control>y"}},
         {"win.duplicate", {"<Control>d"}},

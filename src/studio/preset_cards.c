@@ -74,6 +74,7 @@ static GtkWidget *make_picture(const char *file, bool is_broken) {
         picture = gtk_image_new_from_icon_name("dialog-warning-symbolic");
         gtk_image_set_pixel_size(GTK_IMAGE(picture), 48);
         gtk_widget_add_css_class(picture, "warning");
+        gtk_widget_set_name(picture, "broken");
     } else if (file != NULL) {
         picture = gtk_picture_new_for_filename(file);
         gtk_picture_set_can_shrink(GTK_PICTURE(picture), TRUE);
@@ -109,6 +110,9 @@ static GtkWidget *make_menu(const char *name) {
     gtk_widget_set_valign(button, GTK_ALIGN_START);
     gtk_widget_add_css_class(button, "preset-menu");
     studio_tell(button, "Rename or remove");
+    char *called = g_strdup_printf("menu-of:%s", name);
+    gtk_widget_set_name(button, called);
+    g_free(called);
     g_object_unref(menu);
     return button;
 }

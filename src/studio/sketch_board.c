@@ -27,6 +27,7 @@ struct _StudioSketchBoard {
     bool is_down, is_device; // the pen draws; a device leads it
     bool has_cursor;         // the pen is led by keys
     double x, y;             // m, where the pen was last
+    double pressure;         // of it, 0 to 1
     double first[3], last[3];
     gint64 began;
 };
@@ -78,6 +79,7 @@ static void extend(StudioSketchBoard *board, double pressure) {
 static void move(StudioSketchBoard *board, double x, double y, double pressure, double time) {
     board->x = x;
     board->y = y;
+    board->pressure = pressure;
     if (board->is_down) {
         add(board,
             (FrPenEvent){.kind = FR_PEN_MOVE, .x = x, .y = y, .pressure = pressure, .time = time});
@@ -122,7 +124,7 @@ static void raise_to(StudioSketchBoard *board, double height, double time) {
         add(board,
             (FrPenEvent){.kind = FR_PEN_HEIGHT, .height = board->board.height, .time = time});
         if (!board->is_device) {
-            move(board, board->x, board->y, 1, time);
+            move(board, board->x, board->y, board->pressure, time);
         }
     }
     gtk_widget_queue_draw(GTK_WIDGET(board));
@@ -167,42 +169,64 @@ static void to_board(StudioSketchBoard *board, double px, double py, double *x, 
     *y = (0.5 * height - py) / height * board->board.size;
 }
 
-// NAN: the pen does not tell it.
-static double axis_of(GdkEvent *event, GdkAxisUse axis) {
-    double value;
-    return gdk_event_get_axis(event, axis, &value) ? value : NAN;
+static double time_of(StudioSketchBoard *board, StudioTouch touch) {
+    return isnan(touch.time) ? now(board) : touch.time;
 }
 
 // How hard the pen is pressed; a tilted one moves the plane.
-static double read_pen(StudioSketchBoard *board, GtkGesture *gesture) {
-    GdkEvent *event = gtk_event_controller_get_current_event(GTK_EVENT_CONTROLLER(gesture));
-    if (event == NULL || gdk_event_get_device_tool(event) == NULL) {
-        return 1; // a mouse
+static double feel(StudioSketchBoard *board, StudioTouch touch) {
+    if (board->is_tilting && !isnan(touch.tilt)) {
+        raise_to(board, studio_board_lean(&board->board, touch.tilt), time_of(board, touch));
     }
-    double tilt = axis_of(event, GDK_AXIS_YTILT);
-    if (board->is_tilting && !isnan(tilt)) {
-        raise_to(board, studio_board_lean(&board->board, tilt), now(board));
-    }
-    return studio_pen_pressure(axis_of(event, GDK_AXIS_PRESSURE));
+    return studio_pen_pressure(touch.pressure);
 }
 
-static void on_begin(GtkGestureDrag *drag, double px, double py, StudioSketchBoard *board) {
+void studio_sketch_board_press(StudioSketchBoard *board, double px, double py, StudioTouch touch) {
     double x, y;
     gtk_widget_grab_focus(GTK_WIDGET(board));
     board->has_cursor = false;
     if (!board->is_down) {
         to_board(board, px, py, &x, &y);
-        begin(board, false, x, y, read_pen(board, GTK_GESTURE(drag)));
+        begin(board, false, x, y, feel(board, touch));
     }
 }
 
+void studio_sketch_board_draw(StudioSketchBoard *board, double px, double py, StudioTouch touch) {
+    double x, y;
+    if (board->is_down && !board->is_device) {
+        double pressure = feel(board, touch);
+        to_board(board, px, py, &x, &y);
+        move(board, x, y, pressure, time_of(board, touch));
+    }
+}
+
+void studio_sketch_board_lift(StudioSketchBoard *board) {
+    if (!board->is_device) {
+        end(board);
+    }
+}
+
+static double axis_of(GdkEvent *event, GdkAxisUse axis) {
+    double value;
+    return gdk_event_get_axis(event, axis, &value) ? value : NAN;
+}
+
+static StudioTouch touch_of(GtkGestureDrag *drag) {
+    GdkEvent *event = gtk_event_controller_get_current_event(GTK_EVENT_CONTROLLER(drag));
+    if (event == NULL || gdk_event_get_device_tool(event) == NULL) {
+        return (StudioTouch){NAN, NAN, NAN}; // a mouse
+    }
+    return (StudioTouch){axis_of(event, GDK_AXIS_PRESSURE), axis_of(event, GDK_AXIS_YTILT), NAN};
+}
+
+static void on_begin(GtkGestureDrag *drag, double px, double py, StudioSketchBoard *board) {
+    studio_sketch_board_press(board, px, py, touch_of(drag));
+}
+
 static void on_drag(GtkGestureDrag *drag, double dx, double dy, StudioSketchBoard *board) {
-    double from_x, from_y, x, y;
-    if (board->is_down && !board->is_device &&
-        gtk_gesture_drag_get_start_point(drag, &from_x, &from_y)) {
-        double pressure = read_pen(board, GTK_GESTURE(drag));
-        to_board(board, from_x + dx, from_y + dy, &x, &y);
-        move(board, x, y, pressure, now(board));
+    double x, y;
+    if (gtk_gesture_drag_get_start_point(drag, &x, &y)) {
+        studio_sketch_board_draw(board, x + dx, y + dy, touch_of(drag));
     }
 }
 
@@ -210,9 +234,7 @@ static void on_end(GtkGestureDrag *drag, double dx, double dy, StudioSketchBoard
     (void)drag;
     (void)dx;
     (void)dy;
-    if (!board->is_device) {
-        end(board);
-    }
+    studio_sketch_board_lift(board);
 }
 
 static gboolean on_scroll(GtkEventControllerScroll *scroll, double dx, double dy,

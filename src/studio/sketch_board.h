@@ -27,5 +27,15 @@ void studio_sketch_board_set_pen(StudioSketchBoard *board, const uint8_t colour[
 void studio_sketch_board_set_tilting(StudioSketchBoard *board, gboolean is_tilting);
 /// What the pen has done since it was down (FrPenEvent), borrowed.
 const GArray *studio_sketch_board_events(StudioSketchBoard *board);
+/// What a pen or a mouse tells of itself; NAN: it does not tell.
+typedef struct StudioTouch {
+    double pressure; ///< 0 to 1
+    double tilt;     ///< to and from who draws, -1 to 1
+    double time;     ///< s since it came down, which need not be told: then it is now
+} StudioTouch;
+/// It comes down on the board, moves and is lifted, at places of the widget.
+void studio_sketch_board_press(StudioSketchBoard *board, double px, double py, StudioTouch touch);
+void studio_sketch_board_draw(StudioSketchBoard *board, double px, double py, StudioTouch touch);
+void studio_sketch_board_lift(StudioSketchBoard *board);
 /// An event of a device, as if the pen had done it; places are metres on the board.
 void studio_sketch_board_feed(StudioSketchBoard *board, const FrPenEvent *event);

@@ -28,11 +28,8 @@ void studio_window_say(StudioWindow *window, const char *format, ...) {
     g_free(text);
 }
 
-void studio_window_say_removed(StudioWindow *window, const char *what, uint32_t users) {
-    char *text = g_strdup_printf("Removed %s, which %u %s", what, users,
-                                 users == 1 ? "place still uses" : "places still use");
+void studio_window_say_removed(StudioWindow *window, const char *text) {
     studio_messages_say(messages_in_sight(window), text, true);
-    g_free(text);
 }
 
 void studio_window_on_said(GObject *panel, const char *text, StudioWindow *window) {

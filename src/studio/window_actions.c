@@ -1,6 +1,6 @@
 /// What a window does when told to: every command is an action, so that menus, keys and tests use
 /// the same way.
-#include "studio/model/borrowed.h"
+#include "studio/model/removal.h"
 #include "studio/model/scene_edit.h"
 #include "studio/views_menu.h"
 #include "studio/window_private.h"
@@ -182,19 +182,17 @@ static void do_remove(GSimpleAction *action, GVariant *parameter, gpointer data)
     (void)parameter;
     StudioWindow *window = data;
     uint32_t element = studio_window_selected(window);
-    char *id = g_strdup(studio_window_component(window));
-    if (id != NULL) {
-        studio_remove_component(window->document, studio_window_plant(window), id);
-    } else if (element != FR_NONE && element != 0) {
-        const FrContents *contents = studio_document_contents(window->document);
-        uint32_t users = studio_count_users(contents, element);
-        char *what = g_strdup(fr_contents_at(contents, element)->id);
-        studio_window_select(window, FR_NONE); // else what follows it would take its number
-        if (studio_take_out(window->document, &element, 1, NULL) && users > 0) {
-            studio_window_say_removed(window, what, users);
-        }
-        g_free(what);
+    if (element == FR_NONE || element == 0) {
+        return;
     }
+    char *id = g_strdup(studio_window_component(window));
+    char *words = studio_removal_words(window->document, element);
+    studio_window_select(window, FR_NONE); // else what follows it would take its number
+    if (id != NULL ? studio_remove_component(window->document, studio_window_plant(window), id)
+                   : studio_take_out(window->document, &element, 1, NULL)) {
+        studio_window_say_removed(window, words);
+    }
+    g_free(words);
     g_free(id);
 }
 

@@ -76,6 +76,7 @@ static Asked *ask_name(StudioWindow *window, const char *heading, const char *bo
     gtk_entry_set_activates_default(GTK_ENTRY(entry), TRUE);
     gtk_widget_set_name(entry, "preset-name");
     studio_name(entry, "Name of the preset");
+    gtk_widget_set_name(note, "preset-note");
     gtk_widget_add_css_class(note, "dim-label");
     gtk_label_set_wrap(GTK_LABEL(note), TRUE);
     gtk_label_set_xalign(GTK_LABEL(note), 0);

@@ -107,8 +107,8 @@ StudioCarried studio_window_bring(StudioWindow *window, const char *name,
 
 /// Shows an element in the inspector, the graph and the list; FR_NONE: nothing.
 void studio_window_select(StudioWindow *window, uint32_t element);
-/// Says that something is gone which others name, and offers to undo that.
-void studio_window_say_removed(StudioWindow *window, const char *what, uint32_t users);
+/// Says that something is gone, and offers to undo that.
+void studio_window_say_removed(StudioWindow *window, const char *text);
 /// Of panels that have a signal "said".
 void studio_window_on_said(GObject *panel, const char *text, StudioWindow *window);
 uint32_t studio_window_selected(const StudioWindow *window);

@@ -246,7 +246,7 @@ def test_material(run):
     assert 'material="rind"' in studio.text(run.home) and studio.state()["problems"] == 0
     whole = studio.state()["digest"]
     studio.ask("do remove")
-    assert studio.ask("said") == "Removed rind, which 1 place still uses", studio.ask("said")
+    assert studio.ask("said") == "Removed rind, which stem still uses", studio.ask("said")
     _, y, _, height = studio.where("AdwToastWidget")
     assert y + height <= studio.where("clock")[1], "what is said leaves the strip for time free"
     run.picture("flower-removed")

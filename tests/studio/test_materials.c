@@ -58,24 +58,6 @@ static void test_rename(void) {
     studio_document_free(document);
 }
 
-static void test_users(void) {
-    StudioDocument *document =
-        document_new("<frond version=\"1\">\n"
-                     "  <material id=\"bark\"/><curve id=\"bend\" points=\"0,0 1,1\"/>\n"
-                     "  <plant id=\"p\"><pgraph>\n"
-                     "    <tree id=\"t\" material=\"bark\" length=\"bend(0.5)\"/>\n"
-                     "    <horn id=\"bark-horn\" material=\"bark\"/>\n"
-                     "  </pgraph></plant>\n"
-                     "  <scene><place plant=\"p\"/></scene>\n"
-                     "</frond>\n");
-    const FrContents *contents = studio_document_contents(document);
-    g_assert_cmpuint(studio_count_users(contents, element_of(document, "bark")), ==, 2);
-    g_assert_cmpuint(studio_count_users(contents, element_of(document, "bend")), ==, 1);
-    g_assert_cmpuint(studio_count_users(contents, element_of(document, "p")), ==, 1);
-    g_assert_cmpuint(studio_count_users(contents, element_of(document, "bark-horn")), ==, 0);
-    studio_document_free(document);
-}
-
 static void test_files(void) {
     static const char *const cases[][3] = {
         {"/home/eve/plants", "/home/eve/plants/bark.png", "bark.png"},
@@ -144,7 +126,6 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/materials/a copy is made and given in one step", test_add);
     g_test_add_func("/studio/materials/the first one stands before the plants", test_first);
     g_test_add_func("/studio/materials/another name is told to all that name it", test_rename);
-    g_test_add_func("/studio/materials/who names a thing is counted", test_users);
     g_test_add_func("/studio/materials/files are named from the document on", test_files);
     g_test_add_func("/studio/materials/a swatch is a lit ball, or a leaf with its holes",
                     test_swatch);

@@ -354,6 +354,30 @@ static void test_view(void) {
     studio_document_free(document);
 }
 
+static void test_view_names(void) {
+    StudioDocument *document = document_of(STEM "</frond>\n");
+    StudioCamera camera = studio_camera_default();
+    for (int i = 0; i < 2; i++) {
+        char *name = studio_free_view(document);
+        g_assert_cmpstr(name, ==, i == 0 ? "view 1" : "view 2");
+        g_assert_true(studio_save_view(document, name, &camera));
+        g_free(name);
+    }
+    uint64_t before = studio_document_digest(document);
+    g_assert_false(studio_rename_view(document, "view 1", "view 2"));
+    g_assert_false(studio_rename_view(document, "view 1", ""));
+    g_assert_false(studio_rename_view(document, "view 3", "front"));
+    g_assert_cmpuint(studio_document_digest(document), ==, before);
+    g_assert_true(studio_rename_view(document, "view 1", "front & <back>"));
+    g_assert_cmpuint(studio_find_view(document, "front & <back>"), !=, FR_NONE);
+    char *name = studio_free_view(document); // one that is free, not how many there are
+    g_assert_cmpstr(name, ==, "view 1");
+    g_free(name);
+    studio_document_undo(document);
+    g_assert_cmpuint(studio_document_digest(document), ==, before);
+    studio_document_free(document);
+}
+
 // ---- handles -----------------------------------------------------------------------------------
 
 static StudioEye eye_above(void) {
@@ -451,6 +475,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/scene/an envelope is drawn from either end", test_envelope);
     g_test_add_func("/studio/scene/things are set down near what is seen", test_reach);
     g_test_add_func("/studio/scene/a copy is moved and the first one stays", test_copy);
+    g_test_add_func("/studio/scene/a view gets another name, but not one that is taken",
+                    test_view_names);
     g_test_add_func("/studio/scene/a view is kept under its name and seen again", test_view);
     g_test_add_func("/studio/scene/a point is seen where its ray goes", test_project);
     g_test_add_func("/studio/scene/arrows move along their axes", test_handles);

@@ -195,17 +195,19 @@ void studio_add_used(const FrContents *contents, uint32_t plant, uint32_t elemen
     g_array_unref(use.found);
 }
 
-uint32_t studio_count_users(const FrContents *contents, uint32_t element) {
-    uint32_t count = 0;
+GArray *studio_users_of(const FrContents *contents, uint32_t element) {
+    GArray *users = g_array_new(FALSE, FALSE, sizeof(uint32_t));
     for (uint32_t i = 0; i < fr_contents_count(contents); i++) {
         Use use = {contents, studio_place_plant(contents, i), STUDIO_TAG_COUNT,
                    g_hash_table_new(NULL, NULL), g_array_new(FALSE, FALSE, sizeof(uint32_t))};
         note_element(&use, i);
-        count += i != element && g_hash_table_contains(use.used, GUINT_TO_POINTER(element));
+        if (i != element && g_hash_table_contains(use.used, GUINT_TO_POINTER(element))) {
+            g_array_append_val(users, i);
+        }
         g_hash_table_unref(use.used);
         g_array_unref(use.found);
     }
-    return count;
+    return users;
 }
 
 // ---- new names ---------------------------------------------------------------------------------

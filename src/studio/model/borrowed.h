@@ -48,7 +48,8 @@ char *studio_element_text(const FrContents *contents, uint32_t element);
 /// top of the document and of the sliders of `plant`, and what that uses in turn.
 void studio_add_used(const FrContents *contents, uint32_t plant, uint32_t element,
                      GHashTable *used);
-/// How many elements name a curve, function, material, plant or slider.
-uint32_t studio_count_users(const FrContents *contents, uint32_t element);
+/// The elements (uint32_t) that name a curve, function, material, plant or slider. Free with
+/// g_array_unref().
+GArray *studio_users_of(const FrContents *contents, uint32_t element);
 /// The contents with the new names in them: their elements have the same numbers. NULL: broken.
 FrContents *studio_renamed(const FrContents *contents, const StudioNames *names);

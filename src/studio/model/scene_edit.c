@@ -312,3 +312,21 @@ bool studio_save_view(StudioDocument *document, const char *name, const StudioCa
     g_free(from);
     return is_changed;
 }
+
+bool studio_rename_view(StudioDocument *document, const char *name, const char *to) {
+    uint32_t view = studio_find_view(document, name);
+    if (view == FR_NONE || *to == '\0' || studio_find_view(document, to) != FR_NONE) {
+        return false;
+    }
+    return studio_document_splice_one(
+        document, fr_contents_set(contents_of(document), view, "name", to), "Rename a view", NULL);
+}
+
+char *studio_free_view(const StudioDocument *document) {
+    char *name = NULL;
+    for (uint32_t k = 1; name == NULL || studio_find_view(document, name) != FR_NONE; k++) {
+        g_free(name);
+        name = g_strdup_printf("view %u", k);
+    }
+    return name;
+}

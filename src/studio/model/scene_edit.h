@@ -54,6 +54,11 @@ bool studio_set_envelope(StudioDocument *document, uint32_t plant, const GArray 
 uint32_t studio_find_view(const StudioDocument *document, const char *name);
 /// Keeps where the camera is as a view of that name, in the place of one that is called so.
 bool studio_save_view(StudioDocument *document, const char *name, const StudioCamera *camera);
+/// Calls a view otherwise; false, and nothing changes, if another one is called so, if it is not
+/// there, or if the name is empty.
+bool studio_rename_view(StudioDocument *document, const char *name, const char *to);
+/// A name that no view has: "view 3". Free with g_free().
+char *studio_free_view(const StudioDocument *document);
 
 /// A file as a document names it: relative to its folder where it lies in there. Free with
 /// g_free().
