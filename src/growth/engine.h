@@ -284,6 +284,12 @@ void fr_misplaced_tell_left_out(const FrMisplaced *left_out, uint32_t count, boo
                                 const FrContext *context);
 void fr_misplaced_tell_outside(const FrMisplaced *outside, uint32_t count,
                                const FrContext *context);
+void fr_misplaced_tell_hindered(const FrMisplaced *hindered, uint32_t count,
+                                const FrContext *context);
+/// Which seeds have no room straight above them for their first internode and the box around its
+/// tip. Plants that colonize space or climb are not told. The caller frees it.
+bool *fr_seeds_find_hindered(const FrGrowthSetup *setup, const FrReadySpecies *species,
+                             double width, vec3s up, const FrSeed *seeds, uint32_t count);
 /// Which seeds have no place: outside the arena, on its upper border, in an obstacle, or with no
 /// free cell within two above. Those on an obstacle have one. Cells are of this width and begin at
 /// `origin`, which an arena that has changed since may not. The caller frees it.

@@ -22,11 +22,16 @@ static void begin_plant(const FrGrowth *growth, FrGrownPlant *plant) {
     bud->state = FR_LIVE_GROWING;
 }
 
+/// As far as places of seeds ask for it.
+static FrGrowthSetup setup_of(const FrGrowth *growth) {
+    return (FrGrowthSetup){.params = growth->params,
+                           .obstacles = growth->obstacles,
+                           .obstacle_count = growth->obstacle_count};
+}
+
 /// Which seeds have no place among the obstacles that stand. The caller frees it.
 static bool *find_left_out(const FrGrowth *growth, const FrSeed *seeds, uint32_t count) {
-    const FrGrowthSetup setup = {.params = growth->params,
-                                 .obstacles = growth->obstacles,
-                                 .obstacle_count = growth->obstacle_count};
+    const FrGrowthSetup setup = setup_of(growth);
     return fr_seeds_find_left_out(&setup, growth->voxels->origin, growth->voxels->cell, growth->up,
                                   seeds, count);
 }
@@ -72,7 +77,10 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     growth->plants = g_renew(FrGrownPlant, growth->plants, first + count);
     memset(growth->plants + first, 0, count * sizeof *growth->plants);
     growth->plant_count += count;
-    FrMisplaced left_out = {0}, outside = {0};
+    FrMisplaced left_out = {0}, outside = {0}, hindered = {0};
+    const FrGrowthSetup setup = setup_of(growth);
+    bool *is_hindered = fr_seeds_find_hindered(&setup, growth->species, growth->voxels->cell,
+                                               growth->up, seeds, count);
     bool *is_left_out = find_left_out(growth, seeds, count);
     bool *come_within =
         fr_species_come_within(&growth->params, growth->species, growth->species_count, growth->up);
@@ -89,6 +97,8 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
         }
         if (!come_within[seeds[i].species]) {
             fr_misplaced_note(&outside, &seeds[i]);
+        } else if (is_hindered[i]) {
+            fr_misplaced_note(&hindered, &seeds[i]);
         }
         status = sow(growth, plant, particles, context);
     }
@@ -96,6 +106,7 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
         status = add_particles(growth, particles, context);
     }
     g_array_free(particles, TRUE);
+    g_free(is_hindered);
     g_free(is_left_out);
     g_free(come_within);
     if (status != FR_OK) {
@@ -105,6 +116,7 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
         fr_misplaced_tell_left_out(&left_out, count, left_out.count == growth->plant_count,
                                    context);
         fr_misplaced_tell_outside(&outside, count, context);
+        fr_misplaced_tell_hindered(&hindered, count, context);
     }
     return status;
 }

@@ -74,6 +74,9 @@ FrStatus fr_prepare_body(FrPrepared *made, const FrPgraph *graph, const FrProtot
             fr_diags_add(context->diags, FR_ERROR, "empty-mesh", prototype->span,
                          "'%s' has no triangle with an area", force->file);
             status = FR_ERR_DOCUMENT;
+        } else if (force->inverted && !fr_distance_is_closed(made->distance)) {
+            fr_diags_add(context->diags, FR_WARNING, "open-obstacle", prototype->span,
+                         "'%s' is not closed: it has no outside that could be solid", force->file);
         }
     }
     return status;

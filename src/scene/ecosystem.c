@@ -241,7 +241,6 @@ static FrStatus make_growth(FrEcosystem *ecosystem, FrHabitat *habitat, const Fr
 static void tell_ground(const FrEcosystem *ecosystem, uint32_t first, const FrScene *scene,
                         const FrHills *hills, const FrContext *context) {
     const FrSeed *seeds = (const FrSeed *)(const void *)ecosystem->seeds->data;
-    fr_solids_tell_open(scene->surroundings, context);
     fr_sunken_tell(seeds + first, ecosystem->seeds->len - first, ecosystem->definitions, scene,
                    hills, context);
 }

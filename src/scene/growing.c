@@ -311,15 +311,22 @@ bool fr_growing_is_any(const FrGrowing *growing) {
     return growing->sprouts->len > 0;
 }
 
+bool fr_growing_asks_space(const FrGrowing *growing) {
+    bool asks = false;
+    for (guint i = 0; i < growing->sprouts->len && !asks; i++) {
+        const FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
+        asks = asks_space(sprout->definition);
+    }
+    return asks;
+}
+
 static FrStatus make_room(FrGrowing *growing, const FrScene *scene, uint8_t *is_moving,
                           const FrContext *context) {
-    bool is_wanted = false;
     for (guint i = 0; i < growing->sprouts->len; i++) {
         const FrSprout *sprout = g_ptr_array_index(growing->sprouts, i);
         is_moving[sprout->plant] = 1;
-        is_wanted |= asks_space(sprout->definition);
     }
-    return is_wanted && growing->steps > 0
+    return fr_growing_asks_space(growing) && growing->steps > 0
                ? fr_clearance_new(scene, is_moving, context, &growing->clearance)
                : FR_OK;
 }

@@ -28,6 +28,8 @@ FR_MUST_USE FrStatus fr_growing_add(FrGrowing *growing, FrScene *scene,
                                     const FrStand *stand, const FrContext *context);
 /// True if there are any.
 bool fr_growing_is_any(const FrGrowing *growing);
+/// True if any of them asks for free space.
+bool fr_growing_asks_space(const FrGrowing *growing);
 /// Makes the light and the room they grow in, if there are any. `is_moving`: by plant of the scene,
 /// set for what grows in another way; those that grow here are set besides.
 FR_MUST_USE FrStatus fr_growing_begin(FrGrowing *growing, const FrScene *scene, uint8_t *is_moving,

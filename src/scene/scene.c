@@ -6,6 +6,7 @@
 #include "scene/sampled.h"
 #include "scene/sequence.h"
 #include "scene/simulation.h"
+#include "scene/solids.h"
 #include "scene/varied.h"
 
 #include <math.h>
@@ -343,6 +344,9 @@ void fr_scene_forget_parts(FrScene *scene, const FrSceneParts *parts) {
 static FrStatus begin_growing(Build *build) {
     FrScene *scene = build->scene;
     FrStatus status = FR_OK;
+    if (!fr_ecosystem_is_empty(build->ecosystem) || fr_growing_asks_space(build->growing)) {
+        fr_solids_tell_open(scene->surroundings, build->context);
+    }
     if (build->is_check) {
         status = fr_ecosystem_check(build->ecosystem, scene, build->hills, build->context);
     } else if (!fr_ecosystem_is_empty(build->ecosystem)) {

@@ -244,6 +244,70 @@ def open_obstacles(folder):
         assert said.count("[open-obstacle]") == 1 and "open.frond:6:6: warning" in said, said
 
 
+def open_for_others(folder):
+    """So is one that an L-system asks for room beside, and a form that has no outside."""
+    (folder / "sheet.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    document = folder / "asking.frond"
+    document.write_text("""<frond version="1">
+  <plant id="p"><lsystem><![CDATA[
+derivation length: 3
+w : D(?,?)A
+p1 : D(d,a) < A : a > 0.2 -> F(0.1)D(?,?)A
+  ]]></lsystem></plant>
+  <plant id="q"><pgraph>
+    <camera id="root"/><tree id="stem" length="1"/>
+    <force id="form" kind="mesh" file="sheet.obj" inverted="yes" solid="prune" strength="0"/>
+    <link from="root" to="form"/><link from="form" to="stem"/>
+  </pgraph></plant>
+  <scene>
+    <place plant="p"/>
+    <obstacle shape="mesh" file="sheet.obj" at="2, 0, 1"/>
+  </scene>
+</frond>
+""")
+    for command in ("build", "check"):
+        said = tap.run(command, document).stderr
+        assert said.count("asking.frond:14:6: warning: 'sheet.obj' is not closed: where") == 1, said
+    assert "asking.frond:9:16: warning: 'sheet.obj' is not closed: it has no outside" in said, said
+    document.write_text(document.read_text().replace("D(?,?)", "D").replace("D(d,a)", "D").replace(": a > 0.2", ": *")
+                        .replace(' inverted="yes"', ""))
+    assert tap.run("check", document).stderr == ""
+
+
+def low_room(folder):
+    """A seed close below the top of the arena or an obstacle is told; what has room, or climbs, is not."""
+    document = folder / "low.frond"
+
+    def told(at, more="", species=""):
+        document.write_text(f"""<frond version="1">
+  <plant id="tree"><species model="open" step="0.4"{species}/></plant>
+  <scene>
+    <growth steps="4" min="-4, -4, -1" max="4, 4, 4" cell="0.05"/>
+    {more}
+    <place plant="tree" at="{at}"/>
+  </scene>
+</frond>
+""")
+        said = [tap.run(verb, document).stderr for verb in ("check", "build")]
+        assert said[0] == said[1], said
+        if said[0]:
+            assert "low.frond:6:6: warning: 1 of 1" in said[0] and "[seed-room]" in said[0], said
+        nodes = tap.statistics(document)["nodes"]
+        return bool(said[0]), nodes
+
+    lid = '<obstacle size="3, 3, 0.2" at="0, 0, {}"/>'
+    assert told("0, 0, 3.9") == (True, 0)
+    assert not told("0, 0, 3")[0]
+    assert told("0, 0, 0", lid.format(0.2)) == (True, 0)
+    for free in (told("0, 0, 0", lid.format(1.2)), told("3, 0, 0", lid.format(0.2)),
+                 told("0, 0, 0.4", lid.format(0.2))):
+        assert not free[0] and free[1] > 3, free
+    assert not told("0, 0, 0", lid.format(0.2), ' collide="no"')[0]
+    for example in sorted((tap.SOURCE / "examples").glob("*.frond")):
+        if "<species" in example.read_text(encoding="utf-8"):
+            assert "seed-room" not in tap.run("check", example).stderr, example
+
+
 def on_obstacles(folder):
     """What stands on an obstacle grows; in it, or close beside it, it is told."""
     document = folder / "planter.frond"
@@ -349,6 +413,8 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
          ("/program/growth/what stands on an obstacle grows", on_obstacles),
          ("/program/growth/seeds that the ground holds are told", sunken),
          ("/program/growth/obstacles that are not closed are told", open_obstacles),
+         ("/program/growth/so are those beside L-systems and forms without an outside", open_for_others),
+         ("/program/growth/seeds below something are told", low_room),
          ("/program/growth/cells that are too wide for a species are told", too_wide),
          ("/program/growth/checking does not grow", checked_soon)]
 
