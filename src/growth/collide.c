@@ -19,11 +19,11 @@ uint32_t fr_growth_walk(const FrGrowth *growth, const FrGrownPlant *plant, uint3
     double begin[3], end[3];
     world_of(plant, parent == FR_NONE ? (vec3s){{0, 0, 0}} : plant->nodes.at[parent], begin);
     world_of(plant, to, end);
-    double crossed = 3;
+    double apart = 0;
     for (int axis = 0; axis < 3; axis++) {
-        crossed += fabs(end[axis] - begin[axis]) / growth->voxels->cell;
+        apart += fabs(end[axis] - begin[axis]);
     }
-    if (crossed >= FR_WALK_CELLS) {
+    if (apart / growth->voxels->cell + 3 >= FR_WALK_CELLS) {
         return 0; // longer than what takes part in collision may become
     }
     return fr_voxels_walk(growth->voxels, begin, end, cells);

@@ -15,23 +15,34 @@ uint32_t fr_path_stride(uint32_t cells) {
     return (cells + STEPS_A_BYTE - 1) / STEPS_A_BYTE;
 }
 
-/// A cell beside, or in, the brick of the one before.
-static inline FrCellPlace place_of(const FrVoxels *voxels, FrCell cell, FrCell before,
+// Here a cell is one number, sixteen bits for each axis: a step adds to it, and the cells of a
+// brick are equal but for three bits of each.
+#define IN_BRICK UINT64_C(0x000700070007)
+
+static inline uint64_t code_of(FrCell cell) {
+    return (uint64_t)cell.at[0] | (uint64_t)cell.at[1] << 16 | (uint64_t)cell.at[2] << 32;
+}
+
+/// `last` is the brick of the cell before, which needs no look-up if this one is in it too.
+static inline FrCellPlace place_of(const FrVoxels *voxels, uint64_t code, uint64_t before,
                                    FrBrick *last) {
-    const int16_t *a = cell.at, *b = before.at;
-    bool is_same = (((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) & ~(FR_BRICK_WIDTH - 1)) == 0;
-    return (FrCellPlace){.brick = is_same && last != NULL ? last : fr_voxels_brick(voxels, cell),
+    FrCell cell = {{(int16_t)code, (int16_t)(code >> 16), (int16_t)(code >> 32)}};
+    bool is_same = ((code ^ before) & ~IN_BRICK) == 0 && last != NULL;
+    return (FrCellPlace){.brick = is_same ? last : fr_voxels_brick(voxels, cell),
                          .cell = cell,
-                         .layer = (uint8_t)(cell.at[2] & (FR_BRICK_WIDTH - 1)),
-                         .bit = (uint8_t)fr_voxels_bit(cell)};
+                         .layer = (uint8_t)(code >> 32 & 7),
+                         .bit = (uint8_t)((code >> 16 & 7) * 8 + (code & 7))};
 }
 
 void fr_path_find(const FrVoxels *voxels, const FrCell *cells, uint32_t count,
                   FrCellPlace *places) {
     FrBrick *last = NULL;
+    uint64_t before = 0;
     for (uint32_t k = 0; k < count; k++) {
-        places[k] = place_of(voxels, cells[k], cells[k > 0 ? k - 1 : 0], last);
+        uint64_t code = code_of(cells[k]);
+        places[k] = place_of(voxels, code, before, last);
         last = places[k].brick;
+        before = code;
     }
 }
 
@@ -53,20 +64,20 @@ void fr_path_keep(const FrGrowth *growth, FrProposal *proposal, const FrCellPlac
 
 void fr_path_places(const FrGrowth *growth, const FrProposal *proposal, FrCellPlace *places) {
     const uint8_t *steps = steps_of(growth, proposal);
-    int16_t way[3];
+    uint64_t way[3];
     for (int axis = 0; axis < 3; axis++) {
-        way[axis] = (proposal->backwards >> axis & 1) != 0 ? -1 : 1;
+        uint64_t one = UINT64_C(1) << (16 * axis);
+        way[axis] = (proposal->backwards >> axis & 1) != 0 ? -one : one;
     }
-    FrCell at = proposal->first;
-    FrBrick *last = NULL;
     if (proposal->cell_count == 1) {
-        fr_path_find(growth->voxels, &at, 1, places);
+        fr_path_find(growth->voxels, &proposal->first, 1, places);
     }
+    uint64_t code = code_of(proposal->first);
+    FrBrick *last = NULL;
     for (uint32_t k = 0; k + 1 < proposal->cell_count; k++) {
-        FrCell before = at;
-        int axis = steps[k / STEPS_A_BYTE] >> (k % STEPS_A_BYTE * 2) & 3;
-        at.at[axis] = (int16_t)(at.at[axis] + way[axis]);
-        places[k + 1] = place_of(growth->voxels, at, before, last);
+        uint64_t before = code;
+        code += way[steps[k / STEPS_A_BYTE] >> (k % STEPS_A_BYTE * 2) & 3];
+        places[k + 1] = place_of(growth->voxels, code, before, last);
         last = places[k + 1].brick;
     }
 }

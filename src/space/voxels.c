@@ -2,6 +2,8 @@
 // walked after Amanatides and Woo 1987, A Fast Voxel Traversal Algorithm for Ray Tracing.
 #include "frond/voxels.h"
 
+#include "math/lanes.h"
+
 #include <math.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -195,32 +197,68 @@ FrBrick *fr_voxels_reserve(FrVoxels *voxels, FrCell cell) {
     return brick;
 }
 
+// A walk asks for each cell which of three borders comes next, which no branch foresees. So it is
+// asked with masks: all ones where it is so.
+typedef double Number __attribute__((vector_size(16)));
+typedef int64_t Mask __attribute__((vector_size(16)));
+
+/// Along one axis.
+typedef struct Borders {
+    Number next; ///< where on the segment the next border lies; infinite after the last
+    Number step; ///< from border to border
+    Number left; ///< still to be crossed
+} Borders;
+
+static inline void cross(Borders *borders, Mask is_crossed) {
+    const Number one = {1, 1}, infinite = {INFINITY, INFINITY};
+    borders->left -= (Number)(is_crossed & (Mask)one);
+    borders->next += (Number)(is_crossed & (Mask)borders->step);
+    Mask is_last = borders->left == 0;
+    borders->next = (Number)((is_last & (Mask)infinite) | (~is_last & (Mask)borders->next));
+}
+
+/// As many crossings as the cells lie apart along each axis, so rounding cannot miss the end.
+FR_LANES_CLONES static void cross_borders(const Borders all[3], const int way[3], uint32_t count,
+                                          FrCell *cells) {
+    Borders x = all[0], y = all[1], z = all[2];
+    const Mask ways[3] = {{way[0]}, {(int64_t)way[1] * 0x10000}, {(int64_t)way[2] * 0x100000000}};
+    const int16_t *first = cells[0].at;
+    // The cell as one number, sixteen bits for each axis.
+    Mask cell = {(int64_t)first[0] | (int64_t)first[1] << 16 | (int64_t)first[2] << 32};
+    for (uint32_t i = 1; i <= count; i++) {
+        Mask x_or_y = x.next <= y.next, x_or_z = x.next <= z.next, y_or_z = y.next <= z.next;
+        Mask is_x = x_or_y & x_or_z, is_y = ~x_or_y & y_or_z, is_z = ~(is_x | is_y);
+        cell += (is_x & ways[0]) | (is_y & ways[1]) | (is_z & ways[2]);
+        cross(&x, is_x);
+        cross(&y, is_y);
+        cross(&z, is_z);
+        int64_t code = cell[0];
+        cells[i] = (FrCell){{(int16_t)code, (int16_t)(code >> 16), (int16_t)(code >> 32)}};
+    }
+}
+
 uint32_t fr_voxels_walk(const FrVoxels *voxels, const double from[3], const double to[3],
                         FrCell *cells) {
     FrCell at, end;
     bool is_inside = fr_voxels_cell(voxels, from, &at) && fr_voxels_cell(voxels, to, &end);
     FR_ASSERT(is_inside);
-    double next[3], step[3];
+    Borders borders[3];
     int way[3];
     uint32_t left = 0;
     for (int axis = 0; axis < 3; axis++) {
         double along = (to[axis] - from[axis]) / voxels->cell;
         double where = (from[axis] - voxels->origin[axis]) / voxels->cell - (double)at.at[axis];
+        double step = 1 / MAX(fabs(along), 0x1.0p-100);
+        int crossed = abs(end.at[axis] - at.at[axis]);
         way[axis] = along > 0 ? 1 : -1;
-        step[axis] = 1 / fmax(fabs(along), 0x1.0p-100);
-        bool is_there = at.at[axis] == end.at[axis];
-        next[axis] = is_there ? INFINITY : (along > 0 ? 1 - where : where) * step[axis];
-        left += (uint32_t)abs(end.at[axis] - at.at[axis]);
+        borders[axis].next[0] = crossed == 0 ? INFINITY : (along > 0 ? 1 - where : where) * step;
+        borders[axis].step[0] = step;
+        borders[axis].left[0] = crossed;
+        left += (uint32_t)crossed;
     }
     FR_ASSERT(left < FR_WALK_CELLS);
     cells[0] = at;
-    // As many crossings as the cells lie apart along each axis, so rounding cannot miss the end.
-    for (uint32_t i = 1; i <= left; i++) {
-        int axis = next[0] <= next[1] ? (next[0] <= next[2] ? 0 : 2) : (next[1] <= next[2] ? 1 : 2);
-        at.at[axis] = (int16_t)(at.at[axis] + way[axis]);
-        next[axis] = at.at[axis] == end.at[axis] ? INFINITY : next[axis] + step[axis];
-        cells[i] = at;
-    }
+    cross_borders(borders, way, left, cells);
     return left + 1;
 }
 
