@@ -176,14 +176,12 @@ struct FrGrowth {
     uint32_t owner_count, owner_capacity;
     // Memory of a step, kept from step to step.
     FrProposal *proposals;
-    uint32_t *open;       ///< those that are not settled yet
-    uint8_t *steps;       ///< between the cells of each proposal's segment
-    uint32_t step_stride; ///< room for the longest
-    uint32_t proposal_capacity;
-    FrLiveBudAt *live; ///< all live buds, the growing ones first
-    uint32_t live_capacity;
+    uint32_t *open;                    ///< those that are not settled yet
+    uint8_t *steps;                    ///< between the cells of each proposal's segment
+    uint32_t step_stride;              ///< room for the longest
+    FrLiveBudAt *live;                 ///< all live buds, the growing ones first
     FrScratch *scratch, *drop_scratch; ///< by worker
-    FrScratch shade_memory, sky_memory, known_memory;
+    FrScratch live_memory, proposal_memory, shade_memory, sky_memory, known_memory;
     int scratch_count;
     uint64_t step;
     double seconds, light_seconds; ///< of the last step

@@ -60,11 +60,7 @@ uint32_t fr_growth_gather_live(FrGrowth *growth, uint32_t *count, const FrContex
         asleep += plant->live_count - plant->growing_count;
     }
     *count = growing + asleep;
-    if (*count > growth->live_capacity) {
-        growth->live_capacity = *count + *count / 2;
-        g_free(growth->live);
-        growth->live = g_new(FrLiveBudAt, growth->live_capacity);
-    }
+    growth->live = fr_scratch_take(&growth->live_memory, (*count + 1u) * sizeof *growth->live);
     fr_parallel_for(context->pool, growth->plant_count, 1, put_live, &gathering, NULL);
     return growing;
 }
@@ -131,12 +127,10 @@ static void put_proposals(void *data, size_t begin, size_t end, int worker) {
 }
 
 static void room_for_proposals(FrGrowth *growth, uint32_t count) {
-    if (count > growth->proposal_capacity) {
-        growth->proposal_capacity = count + count / 2;
-        growth->proposals = g_renew(FrProposal, growth->proposals, growth->proposal_capacity);
-        growth->open = g_renew(uint32_t, growth->open, growth->proposal_capacity);
-        growth->steps = g_realloc_n(growth->steps, growth->proposal_capacity, growth->step_stride);
-    }
+    size_t size = sizeof *growth->proposals + sizeof *growth->open + growth->step_stride;
+    growth->proposals = fr_scratch_take(&growth->proposal_memory, (count + 1u) * size);
+    growth->open = (uint32_t *)(void *)(growth->proposals + count);
+    growth->steps = (uint8_t *)(growth->open + count);
 }
 
 uint32_t fr_growth_gather_proposals(FrGrowth *growth, uint32_t internode, bool *goes_on,

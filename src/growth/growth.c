@@ -85,7 +85,6 @@ static void take_species(FrGrowth *growth, const FrGrowthSetup *setup) {
     growth->shadows = NULL;
     fr_colony_free(growth->colony);
     growth->colony = NULL;
-    growth->proposal_capacity = 0;
     growth->species = g_new(FrReadySpecies, setup->species_count);
     for (uint32_t i = 0; i < setup->species_count; i++) {
         growth->species[i] = fr_species_make_ready(&setup->species[i]);
@@ -212,10 +211,8 @@ void fr_growth_free(FrGrowth *growth) {
     fr_stems_free(growth->bark);
     drop_species(growth);
     drop_obstacles(growth);
-    g_free(growth->proposals);
-    g_free(growth->open);
-    g_free(growth->steps);
-    g_free(growth->live);
+    fr_scratch_clear(&growth->live_memory);
+    fr_scratch_clear(&growth->proposal_memory);
     fr_scratch_clear(&growth->shade_memory);
     fr_scratch_clear(&growth->sky_memory);
     fr_scratch_clear(&growth->known_memory);
