@@ -43,7 +43,8 @@ static const Preset presets[] = {
                         "favour-old=0.51;favour-from=7;favour-over=7;shoot=19.9;turning=part;"
                         "turn-part=0.4;phototropism=0.4;gravitropism=0.02;search=0;branch-dark=0;"
                         "branch-light=0;shed=vigour;shed-vigour=0.3;shed-dead=0;collide=no;"
-                        "trials=1;leaves=0;pipe-exponent=2.6;taper=0"},
+                        "trials=1;tip-radius=0.03;pipe-exponent=2.6;taper=0;leaves=2;"
+                        "leaf-length=0.7;leaf-width=0.45;leaf-life=3;leaf-light=0;foliage=0.3"},
     // Fills the vase of its envelope, drawn by particles alone.
     {"vase", "fate=colonize;model=open;particles=2500;step=0.14;step-ratio=1;influence=1;kill=0.3;"
              "gravitropism=0;wander=3;collide=no;leaves=3;leaf-life=8;leaf-light=0;taper=0;"
