@@ -126,8 +126,8 @@ FR_API FR_MUST_USE FrStatus fr_growth_change(FrGrowth *growth, const FrGrowthSet
                                              const FrContext *context);
 /// Adds plants of one bud each. A seed outside the arena or inside an obstacle waits, with a
 /// warning, and begins with the first step after a change that makes its place free; the plants
-/// keep the numbers of their seeds. Another warning tells of seeds from which no trunk comes to its
-/// envelope.
+/// keep the numbers of their seeds. Others tell of seeds from which no trunk comes to its envelope,
+/// and of those below something that is nearer than a first internode is long.
 FR_API FR_MUST_USE FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds,
                                                 uint32_t count, const FrContext *context);
 FR_API FR_MUST_USE FrStatus fr_growth_add_particles(FrGrowth *growth, const FrParticle *particles,

@@ -102,6 +102,8 @@ FR_API bool fr_voxels_fill_brick(FrVoxels *voxels, FrCell first, bool is_ground)
 FR_API void fr_voxels_share_blocks(FrVoxels *voxels, int z);
 /// Makes all obstacles go, and keeps what is owned.
 FR_API void fr_voxels_clear_solid(FrVoxels *voxels);
+/// Makes what `other`, of the same cells, has for owners the owners here; what is solid stays.
+FR_API void fr_voxels_take_owners(FrVoxels *voxels, const FrVoxels *other);
 /// Sets the bits of a brick whose owners have been written.
 FR_API void fr_voxels_note_owners(FrBrick *brick);
 /// Calls `visit` for every brick that has owners, in order of its place.

@@ -295,16 +295,15 @@ static void exchange(FrGrowth *growth, FrGrowth *read) {
     growth->owner_capacity = read->owner_capacity;
     growth->step = read->step;
     growth->is_world_new = read->is_world_new;
-    FrVoxels *voxels = read->voxels;
+    // What stands in the way stays as it is.
+    fr_voxels_take_owners(growth->voxels, read->voxels);
     read->plants = old.plants;
     read->plant_count = old.plant_count;
     read->owners = old.owners;
-    read->voxels = old.voxels;
     read->shadows = old.shadows;
     growth->shadows = NULL; // cast anew by the next step
     read->colony = old.colony;
     growth->colony = NULL;
-    growth->voxels = voxels;
     FrParticles *particles = growth->particles;
     growth->particles = read->particles;
     read->particles = particles;
@@ -329,10 +328,6 @@ FrStatus fr_growth_restore(FrGrowth *growth, const void *bytes, size_t size, FrS
     }
     if (is_right) {
         exchange(growth, &read);
-        FrContext unlimited = fr_context_default(); // they stood in the old voxels too
-        unlimited.limits.bytes = UINT64_MAX;
-        FrStatus status = fr_growth_stand_obstacles(growth, &unlimited);
-        FR_ASSERT(status == FR_OK);
         fr_growth_find_bark(growth, context);
     } else {
         fr_diags_add(context->diags, FR_ERROR, "growth-state", span,

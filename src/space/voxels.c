@@ -294,6 +294,27 @@ void fr_voxels_note_owners(FrBrick *brick) {
     }
 }
 
+static void drop_owners(void *data, FrCell first, FrBrick *brick) {
+    (void)data;
+    (void)first;
+    memset(brick->owners, 0xff, FR_BRICK_CELLS * sizeof *brick->owners);
+    memcpy(brick->taken, brick->solid, sizeof brick->taken);
+}
+
+/// Writes the owners of a brick into that of other voxels.
+static void hand_owners(void *data, FrCell first, FrBrick *brick) {
+    FrBrick *into = fr_voxels_reserve(data, first);
+    memcpy(into->owners, brick->owners, FR_BRICK_CELLS * sizeof *into->owners);
+    for (unsigned layer = 0; layer < 8; layer++) {
+        into->taken[layer] = into->solid[layer] | owned_bits(brick, layer);
+    }
+}
+
+void fr_voxels_take_owners(FrVoxels *voxels, const FrVoxels *other) {
+    fr_voxels_each_owned(voxels, drop_owners, NULL);
+    fr_voxels_each_owned(other, hand_owners, voxels);
+}
+
 void fr_voxels_clear_solid(FrVoxels *voxels) {
     for (int top = 0; top < TOP; top++) {
         FrBrick **block = voxels->top[top];

@@ -166,6 +166,47 @@ static void test_internodes(void) {
     g_assert_cmpfloat(grow("5", "internode").internodes, >=, 2.0 / CELLS);
 }
 
+enum { POINTS = 24 };
+
+/// Which points of a grid are taken.
+static void look(const World *world, bool *is_taken) {
+    for (int i = 0; i < POINTS * POINTS * POINTS; i++) {
+        const double at[3] = {-1.2 + 0.1 * (i % POINTS), -1.2 + 0.1 * (i / POINTS % POINTS),
+                              0.1 * (i / POINTS / POINTS)};
+        is_taken[i] = fr_growth_is_taken(world->growth, at);
+    }
+}
+
+/// The cells of branches are those of then, and what stands in the way is there still.
+static void test_taken_back(void) {
+    static const vec3s corners[4] = {
+        {{0.5F, -1, 0}}, {{0.5F, 1, 0}}, {{0.5F, 1, 3}}, {{0.5F, -1, 3}}};
+    World world;
+    world_init(&world);
+    world_set(&world, "model", "open");
+    const FrGrowthObstacle wall = world_sheet(corners);
+    world.setup.obstacles = &wall;
+    world.setup.obstacle_count = 1;
+    world.setup.params.history = 4;
+    world_sow_one(&world);
+    world_step(&world, 5);
+    bool *then = g_new(bool, POINTS *POINTS *POINTS);
+    bool *now = g_new(bool, POINTS *POINTS *POINTS);
+    look(&world, then);
+    world_step(&world, 4);
+    look(&world, now);
+    g_assert_true(memcmp(then, now, POINTS * POINTS * POINTS) != 0);
+    for (int i = 0; i < 4; i++) {
+        g_assert_true(fr_growth_undo(world.growth));
+    }
+    look(&world, now);
+    g_assert_true(memcmp(then, now, POINTS * POINTS * POINTS) == 0);
+    g_assert_true(fr_growth_is_taken(world.growth, (double[3]){0.5, 0.5, 1}));
+    g_free(then);
+    g_free(now);
+    world_clear(&world);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/growth/space/E13 new tips are half a box off all wood but their kin's",
@@ -175,5 +216,7 @@ int main(int argc, char **argv) {
     g_test_add_func(
         "/growth/space/E13 no two internodes are nearer than half a box where asked for",
         test_internodes);
+    g_test_add_func("/growth/space/a step back frees its cells and lets obstacles stand",
+                    test_taken_back);
     return g_test_run();
 }
