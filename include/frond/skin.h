@@ -111,5 +111,8 @@ FR_API FR_MUST_USE FrStatus fr_skin_update(FrSkin *skin, const FrPlant *plant, b
 /// Its parts, borrowed until the next update.
 FR_API const FrSkinPart *fr_skin_parts(const FrSkin *skin, uint32_t *count);
 FR_API FrSkinWork fr_skin_work(const FrSkin *skin);
+/// How long one thread takes for the wood of each component, measured on a sample of what was
+/// written; as many as the plant has, which is the one of the last update.
+FR_API void fr_skin_seconds(const FrSkin *skin, const FrPlant *plant, double *seconds);
 /// A copy in one piece; NULL if there is no memory for it.
 FR_API FrMesh *fr_skin_mesh(const FrSkin *skin);

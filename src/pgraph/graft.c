@@ -5,6 +5,7 @@
 
 #include "pgraph/global.h"
 #include "pgraph/life.h"
+#include "pgraph/timing.h"
 
 #include <math.h>
 
@@ -87,8 +88,11 @@ static void grow_range(void *data, size_t begin, size_t end, int worker) {
     for (size_t i = begin; i < end; i++) {
         batch->diags[i] = fr_diags_new();
         FrContext context = {.diags = batch->diags[i], .limits = batch->limits};
+        double began = fr_graft_begin(batch->expansion, i);
         batch->statuses[i] =
             grow(batch, batch->rows[i], &evaluator, &context, &batch->scions[i].plant);
+        fr_graft_end(batch->expansion,
+                     fr_instance_stage(batch->expansion, batch->rows[i])->component, worker, began);
     }
 }
 

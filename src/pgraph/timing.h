@@ -11,8 +11,10 @@
 
 /// Of one worker.
 typedef struct FrTimer {
-    double *seconds; ///< by component
-    uint64_t *rows;  ///< of these, that were there
+    double *seconds;  ///< by component
+    uint64_t *rows;   ///< of these, that were there
+    double *grafted;  ///< s that grafts took to grow, by component, of every 8th …
+    uint64_t *grafts; ///< … and how many these are
 } FrTimer;
 
 /// One group of rows on its way.
@@ -31,6 +33,11 @@ void fr_timing_begin(FrExpansion *expansion, int workers);
 /// Frees the timers. `each` (a value a component) receives what an instance takes in seconds; what
 /// was not made stays as it is.
 void fr_timing_end(FrExpansion *expansion, int workers, double *each);
+
+/// Begins a graft, the one with that number of its batch; 0: it is not timed.
+double fr_graft_begin(const FrExpansion *expansion, size_t number);
+/// It is there, or has failed.
+void fr_graft_end(const FrExpansion *expansion, uint32_t component, int worker, double began);
 
 /// Begins rows from `begin` on, which are `grain` at a time.
 FrLap fr_lap_begin(const FrExpansion *expansion, size_t begin, size_t grain, int worker);

@@ -152,6 +152,30 @@ static bool can_be_rebuilt(const Build *build, const FrPlantDef *definition) {
     return is_whole;
 }
 
+/// Builds a plant of its own; where scenes are built again and again it tells how long its
+/// components take.
+static FrStatus grow_plant(Build *build, const FrPlantDef *definition, int64_t seed,
+                           FrScenePlant *made) {
+    double request = 0;
+    bool is_timed = build->parts != NULL && definition->kind == FR_PLANT_PGRAPH;
+    FrPgraphCounts counts = {.seconds = is_timed ? &request : NULL};
+    FrStatus status = fr_scene_grow(build->document, definition, seed, build->time, build->context,
+                                    made, &counts);
+    if (counts.seconds == &request) {
+        counts.seconds = NULL; // it has not come to that
+    }
+    if (status == FR_OK && counts.seconds != NULL) {
+        guint components = made->plant->components->len;
+        guint known = MIN(components, fr_pgraph_count(definition->pgraph));
+        made->seconds = g_new(double, (gsize)components + 1);
+        for (guint i = 0; i < components; i++) {
+            made->seconds[i] = i < known ? counts.seconds[i] : (double)NAN;
+        }
+    }
+    fr_pgraph_counts_clear(&counts);
+    return status;
+}
+
 /// Builds a definition with a seed and adds it to the scene.
 static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t seed,
                             const char *key) {
@@ -161,8 +185,7 @@ static FrStatus build_plant(Build *build, const FrPlantDef *definition, int64_t 
     FrScenePlant made;
     FrStatus status = can_be_rebuilt(build, definition)
                           ? rebuild_plant(build, definition, seed, key, &made)
-                          : fr_scene_grow(build->document, definition, seed, build->time,
-                                          build->context, &made, NULL);
+                          : grow_plant(build, definition, seed, &made);
     if (status == FR_OK) {
         warn_of_nothing(build, definition, made.plant);
         g_array_append_val(build->scene->plants, made);

@@ -2,11 +2,10 @@
 #include "skin/job.h"
 
 #include "skin/mesh.h"
+#include "skin/took.h"
 
 #include "plant/place.h"
 #include "plant/shapes.h"
-
-enum { RUN_GRAIN = 16 };
 
 // ---- wood --------------------------------------------------------------------------------------
 
@@ -50,11 +49,14 @@ FrDigest fr_wood_inputs(const FrPlant *plant) {
 }
 
 static FrWood *wood_new(const FrPlant *posed, const FrScopes *scopes, const FrSkinParams *params,
-                        const FrContext *context) {
+                        bool is_timed, const FrContext *context) {
     FrWood *wood = g_atomic_rc_box_new0(FrWood);
     FrPlan *plan = &wood->plan;
     fr_plan_init(plan, posed, scopes, params, context);
-    fr_parallel_for(context->pool, plan->runs->len, RUN_GRAIN, measure_range, plan,
+    if (is_timed) {
+        fr_took_init(plan);
+    }
+    fr_parallel_for(context->pool, plan->runs->len, FR_RUN_GRAIN, measure_range, plan,
                     context->progress);
     wood->inputs = fr_wood_inputs(posed);
     wood->sums = place_tubes(plan);
@@ -200,7 +202,7 @@ static void make_parts(FrSkinJob *job) {
 }
 
 FrStatus fr_job_begin(FrSkinJob *job, const FrPlant *plant, const FrSkinParams *params, FrUpAxis up,
-                      const FrSkinJob *same, const FrContext *context) {
+                      const FrSkinJob *same, bool is_timed, const FrContext *context) {
     *job = (FrSkinJob){.up = up};
     fr_progress_report(context->progress, "skin", 0.0);
     if (same != NULL) {
@@ -209,7 +211,7 @@ FrStatus fr_job_begin(FrSkinJob *job, const FrPlant *plant, const FrSkinParams *
         job->wood->plan.context = context;
     } else {
         const FrPlant *posed = begin_deforming(job, plant, fr_pool_threads(context->pool));
-        job->wood = wood_new(posed, job->scopes, params, context);
+        job->wood = wood_new(posed, job->scopes, params, is_timed, context);
     }
     FrStatus status =
         fr_organs_init(&job->organs, &job->wood->plan, same != NULL ? &same->organs : NULL);

@@ -33,10 +33,11 @@ typedef struct FrSkinJob {
 } FrSkinJob;
 
 /// Plans and counts. `same`, if not NULL, is of a plant that has the same rows as this one, whose
-/// wood has the inputs fr_wood_inputs() and which nothing deforms. What fails leaves a job that
-/// must be cleared.
+/// wood has the inputs fr_wood_inputs() and which nothing deforms. `is_timed`: see took.h. What
+/// fails leaves a job that must be cleared.
 FR_MUST_USE FrStatus fr_job_begin(FrSkinJob *job, const FrPlant *plant, const FrSkinParams *params,
-                                  FrUpAxis up, const FrSkinJob *same, const FrContext *context);
+                                  FrUpAxis up, const FrSkinJob *same, bool is_timed,
+                                  const FrContext *context);
 void fr_job_clear(FrSkinJob *job);
 /// Checks so many against the limits.
 FR_MUST_USE FrStatus fr_job_check(const FrSkinJob *job, uint64_t vertices, uint64_t indices);

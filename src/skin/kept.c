@@ -166,7 +166,7 @@ FrStatus fr_skin_plan(FrSkin *skin, const FrPlant *plant, bool has_same_rows,
     state->forms = forms;
     state->limits = context->limits;
     FrStatus status = fr_job_begin(&state->job, plant, &skin->params, skin->up,
-                                   is_same ? &before->job : NULL, context);
+                                   is_same ? &before->job : NULL, true, context);
     if (status == FR_OK && fr_job_is_patched(&state->job)) {
         status = patch_all(state);
     }

@@ -6,6 +6,7 @@
 #include "skin/cap.h"
 #include "skin/collar.h"
 #include "skin/plan.h"
+#include "skin/took.h"
 
 #include <cglm/struct.h>
 
@@ -258,7 +259,10 @@ static void measure_run(FrPlan *plan, FrRun *run) {
 }
 
 void fr_measure_runs(FrPlan *plan, size_t begin, size_t end) {
+    FrTook group = fr_took_begin(plan, begin);
     for (size_t i = begin; i < end; i++) {
         measure_run(plan, &g_array_index(plan->runs, FrRun, i));
+        fr_took_run(&group, i, true);
     }
+    fr_took_end(&group);
 }

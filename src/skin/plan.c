@@ -334,6 +334,7 @@ void fr_plan_clear(FrPlan *plan) {
     g_free(plan->tiles);
     g_array_free(plan->runs, TRUE);
     g_array_free(plan->tubes, TRUE);
+    g_free(plan->took);
 }
 
 vec3s fr_tube_origin(const FrPlan *plan, const FrTube *tube) {

@@ -109,6 +109,8 @@ typedef struct FrPlan {
     uint32_t section_count;
     float (*tiles)[2]; ///< by slot: width and height of a bark tile, m
     uint32_t slots;    ///< materials + 1; slot 0 is the plain default
+    float *took;       ///< by run: see took.h; NULL: nobody wants to know
+    double tick;       ///< s that reading the clock takes
 } FrPlan;
 
 /// Finds runs and tubes. FR_CANCELLED leaves a plan that can be freed. `scopes` may be NULL; their

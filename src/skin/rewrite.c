@@ -2,10 +2,11 @@
 #include "skin/kept_state.h"
 #include "skin/mesh.h"
 #include "skin/stream.h"
+#include "skin/took.h"
 
 #include <string.h>
 
-enum { RUN_GRAIN = 16, BLOCK_GRAIN = 8 };
+enum { BLOCK_GRAIN = 8 };
 
 // Organs of more bytes than this are written past the caches.
 #define STREAMED_FROM ((uint64_t)4 << 20)
@@ -24,6 +25,7 @@ typedef struct Writing {
     GHashTable *runs;          // digest → run of before, + 1; NULL where both have the same runs
     Touch *touches;            // by worker, then room
     bool is_streamed;
+    bool is_wood_new; // else it has been written and timed before
 } Writing;
 
 static Touch *touch_of(const Writing *writing, int worker, uint32_t slot, bool is_organs) {
@@ -58,6 +60,7 @@ static void write_runs(void *data, size_t begin, size_t end, int worker) {
     const Writing *writing = data;
     const FrSkinJob *job = &writing->now->job;
     const FrPlan *plan = &job->wood->plan;
+    FrTook group = fr_took_begin(plan, begin);
     for (uint32_t i = (uint32_t)begin; i < end; i++) {
         const FrRun *run = &g_array_index(plan->runs, FrRun, i);
         uint32_t before = run_before(writing, i);
@@ -65,6 +68,7 @@ static void write_runs(void *data, size_t begin, size_t end, int worker) {
             const FrWood *wood = writing->before->job.wood;
             const FrRun *same = &g_array_index(wood->plan.runs, FrRun, before);
             if (wood != job->wood) {
+                job->wood->plan.took[i] = wood->plan.took[before];
                 memcpy(&job->wood->boxes[run->first_tube], &wood->boxes[same->first_tube],
                        run->tube_count * sizeof(FrBox));
             }
@@ -82,7 +86,9 @@ static void write_runs(void *data, size_t begin, size_t end, int worker) {
                 touched->written -= k > run->first_tube;
             }
         }
+        fr_took_run(&group, i, before == FR_NONE && writing->is_wood_new);
     }
+    fr_took_end(&group);
 }
 
 // What of a piece is to be written, all but what stands in its place already.
@@ -259,6 +265,7 @@ static Writing begin_writing(const FrSkin *skin, int workers) {
             (Touch){.box = fr_box_empty(), .vertex = UINT64_MAX, .index = UINT64_MAX};
     }
     writing.is_streamed = bytes > STREAMED_FROM;
+    writing.is_wood_new = before == NULL || before->job.wood != now->job.wood;
     writing.runs = writing.before != NULL ? index_runs(now, writing.before) : NULL;
     return writing;
 }
@@ -300,7 +307,7 @@ static void write_patched(const Writing *writing) {
 }
 
 static void write_pieces(const FrSkin *skin, Writing *writing, const FrContext *context) {
-    fr_parallel_for(context->pool, writing->now->job.wood->plan.runs->len, RUN_GRAIN, write_runs,
+    fr_parallel_for(context->pool, writing->now->job.wood->plan.runs->len, FR_RUN_GRAIN, write_runs,
                     writing, NULL);
     fr_progress_report(context->progress, "skin", 0.6);
     fr_parallel_for(context->pool, skin->planned->block_count, BLOCK_GRAIN, write_blocks, writing,

@@ -5,10 +5,11 @@
 #include "skin/job.h"
 #include "skin/mesh.h"
 #include "skin/patch.h"
+#include "skin/took.h"
 
 #include <string.h>
 
-enum { RUN_GRAIN = 16, PIECE_GRAIN = 512 };
+enum { PIECE_GRAIN = 512 };
 
 #define FR_PARAM_STRUCT FrSkinParams
 static const FrParam skin_rows[] = {FR_SKIN_PARAMS(FR_PARAM_ROW)};
@@ -43,10 +44,13 @@ typedef struct Writing {
 static void write_runs(void *data, size_t begin, size_t end, int worker) {
     const Writing *writing = data;
     FrWood *wood = writing->job->wood;
+    FrTook group = fr_took_begin(&wood->plan, begin);
     for (size_t i = begin; i < end; i++) {
         fr_write_run(&wood->plan, &g_array_index(wood->plan.runs, FrRun, i), writing->job->up,
                      writing->slabs, wood->boxes, fr_job_notes(writing->job, worker));
+        fr_took_run(&group, i, true);
     }
+    fr_took_end(&group);
 }
 
 static void write_organs(void *data, size_t begin, size_t end, int worker) {
@@ -120,8 +124,8 @@ FrStatus fr_job_write(FrSkinJob *job, FrMesh **mesh) {
     *mesh = make_mesh(job, writing.slabs);
     FrStatus status = *mesh != NULL ? FR_OK : FR_ERR_MACHINE;
     if (status == FR_OK) {
-        fr_parallel_for(context->pool, job->wood->plan.runs->len, RUN_GRAIN, write_runs, &writing,
-                        context->progress);
+        fr_parallel_for(context->pool, job->wood->plan.runs->len, FR_RUN_GRAIN, write_runs,
+                        &writing, context->progress);
         fr_progress_report(context->progress, "skin", 0.6);
         fr_parallel_for(context->pool, job->organs.piece_count, PIECE_GRAIN, write_organs, &writing,
                         context->progress);
@@ -139,7 +143,7 @@ FrStatus fr_skin_plant(const FrPlant *plant, const FrSkinParams *params, FrUpAxi
                        const FrContext *context, FrMesh **mesh) {
     FrSkinJob job;
     *mesh = NULL;
-    FrStatus status = fr_job_begin(&job, plant, params, up, NULL, context);
+    FrStatus status = fr_job_begin(&job, plant, params, up, NULL, false, context);
     status = status == FR_OK ? fr_job_write(&job, mesh) : status;
     if (status == FR_OK) {
         fr_progress_report(context->progress, "skin", 1.0);

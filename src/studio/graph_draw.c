@@ -85,9 +85,10 @@ static void draw_wire(StudioGraphPanel *panel, cairo_t *cairo, const StudioWire 
 
 // "207 k", short enough for a box.
 static char *short_count(uint64_t count) {
-    return count < 10000     ? g_strdup_printf("%" G_GUINT64_FORMAT, count)
-           : count < 1000000 ? g_strdup_printf("%.0f k", (double)count / 1e3)
-                             : g_strdup_printf("%.1f M", (double)count / 1e6);
+    return count < 1000     ? g_strdup_printf("%" G_GUINT64_FORMAT, count)
+           : count < 9950   ? g_strdup_printf("%.1f k", (double)count / 1e3)
+           : count < 999500 ? g_strdup_printf("%.0f k", (double)count / 1e3)
+                            : g_strdup_printf("%.1f M", (double)count / 1e6);
 }
 
 static void draw_second(cairo_t *cairo, const graphene_rect_t *rect, const double colour[3],

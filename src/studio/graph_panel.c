@@ -172,7 +172,7 @@ void studio_graph_panel_set_counts(StudioGraphPanel *panel, const GArray *counts
     for (guint i = 0; i < counts->len; i++) {
         const StudioCount *count = &g_array_index(counts, StudioCount, i);
         if (g_strcmp0(count->plant, plant) == 0) {
-            Load load = {count->instances, count->seconds};
+            Load load = {count->instances, count->seconds, count->skin_seconds};
             g_hash_table_insert(panel->counts, g_strdup(count->component),
                                 g_memdup2(&load, sizeof load));
         }
@@ -223,7 +223,8 @@ static gboolean on_tip(GtkWidget *widget, int x, int y, gboolean is_keyboard, Gt
     char *count = studio_count_words(load->instances, "instance", "instances");
     char *time = isnan(load->seconds)
                      ? g_strdup("")
-                     : g_strdup_printf(", %.3g ms to make on one thread", 1000 * load->seconds);
+                     : g_strdup_printf(", %.3g ms on one thread, %.3g ms of it for skin",
+                                       1000 * load->seconds, 1000 * load->skin_seconds);
     char *text = g_strdup_printf("%s: %s%s", box->id, count, time);
     gtk_tooltip_set_text(tip, text);
     g_free(text);

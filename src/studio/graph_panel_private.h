@@ -8,7 +8,7 @@
 #include "studio/model/graph.h"
 
 enum {
-    BOX_WIDTH = 104,
+    BOX_WIDTH = 116,
     BOX_HEIGHT = 36,
     GAP_X = 14,
     GAP_Y = 34,
@@ -24,7 +24,7 @@ enum {
 /// What a component has, and how many seconds that takes.
 typedef struct Load {
     uint64_t instances;
-    double seconds;
+    double seconds, skin_seconds; // of these
 } Load;
 
 typedef enum DragKind { DRAG_NOTHING, DRAG_TOOL, DRAG_BOX, DRAG_CANVAS } DragKind;

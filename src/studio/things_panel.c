@@ -1,5 +1,7 @@
 #include "studio/things_panel.h"
 
+#include "studio/model/graph.h"
+
 #include <string.h>
 
 enum { INDENT = 16 };
@@ -147,6 +149,8 @@ struct _StudioThingsPanel {
     uint64_t revision; // of what is listed
     const StudioDocument *document;
     gboolean is_showing;
+    GHashTable *bound; // GtkListItem *, that have a widget
+    GHashTable *loads; // id of a plant → "12 · 85 ms"
 };
 
 static guint selected_signal;
@@ -176,19 +180,75 @@ static void on_setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpoin
     gtk_list_item_set_child(item, box);
 }
 
+// "plant", or "12 · 85 ms · plant". Free with g_free().
+static char *kind_text(const StudioThingsPanel *panel, const Thing *thing) {
+    const char *load = g_strcmp0(thing->kind, "plant") == 0
+                           ? g_hash_table_lookup(panel->loads, thing->name)
+                           : NULL;
+    return load == NULL ? g_strdup(thing->kind) : g_strdup_printf("%s · %s", load, thing->kind);
+}
+
+static void show_kind(const StudioThingsPanel *panel, GtkListItem *item) {
+    guint position = gtk_list_item_get_position(item);
+    GtkWidget *kind = gtk_widget_get_last_child(gtk_list_item_get_child(item));
+    if (position < panel->things->things->len) {
+        const Thing *thing = &g_array_index(panel->things->things, Thing, position);
+        char *text = kind_text(panel, thing);
+        gtk_label_set_text(GTK_LABEL(kind), text == NULL ? "" : text);
+        gtk_widget_set_visible(kind, text != NULL);
+        g_free(text);
+    }
+}
+
+static void on_unbind(GtkSignalListItemFactory *factory, GtkListItem *item,
+                      StudioThingsPanel *panel) {
+    (void)factory;
+    g_hash_table_remove(panel->bound, item);
+}
+
 static void on_bind(GtkSignalListItemFactory *factory, GtkListItem *item,
                     StudioThingsPanel *panel) {
     (void)factory;
+    g_hash_table_add(panel->bound, item);
     const Thing *thing =
         &g_array_index(panel->things->things, Thing, gtk_list_item_get_position(item));
     GtkWidget *box = gtk_list_item_get_child(item);
-    GtkWidget *name = gtk_widget_get_first_child(box), *kind = gtk_widget_get_last_child(box);
+    GtkWidget *name = gtk_widget_get_first_child(box);
     gtk_widget_set_margin_start(box, (int)(thing->depth * INDENT + 4));
     gtk_label_set_text(GTK_LABEL(name), thing->name);
-    gtk_label_set_text(GTK_LABEL(kind), thing->kind);
-    gtk_widget_set_visible(kind, thing->kind != NULL);
+    show_kind(panel, item);
     gtk_accessible_update_property(GTK_ACCESSIBLE(gtk_widget_get_parent(box)),
                                    GTK_ACCESSIBLE_PROPERTY_LABEL, thing->name, -1);
+}
+
+// How many and how long, of what of both is worth a word. Free with g_free(); NULL: nothing is.
+static char *load_text(const StudioPlantLoad *load) {
+    char *time = studio_time_text(load->seconds), *text = NULL;
+    if (load->stands > 1) {
+        text = g_strdup_printf("%" G_GUINT64_FORMAT "%s%s", load->stands,
+                               *time == '\0' ? "" : " · ", time);
+    } else if (*time != '\0') {
+        text = g_strdup(time);
+    }
+    g_free(time);
+    return text;
+}
+
+void studio_things_panel_set_loads(StudioThingsPanel *panel, const GArray *loads) {
+    g_hash_table_remove_all(panel->loads);
+    for (guint i = 0; i < loads->len; i++) {
+        const StudioPlantLoad *load = &g_array_index(loads, StudioPlantLoad, i);
+        char *text = load_text(load);
+        if (text != NULL) {
+            g_hash_table_insert(panel->loads, g_strdup(load->plant), text);
+        }
+    }
+    GHashTableIter all;
+    gpointer item;
+    g_hash_table_iter_init(&all, panel->bound);
+    while (g_hash_table_iter_next(&all, &item, NULL)) {
+        show_kind(panel, item);
+    }
 }
 
 void studio_things_panel_show(StudioThingsPanel *panel, StudioDocument *document,
@@ -210,12 +270,22 @@ void studio_things_panel_show(StudioThingsPanel *panel, StudioDocument *document
     panel->is_showing = FALSE;
 }
 
+static void studio_things_panel_finalize(GObject *object) {
+    StudioThingsPanel *panel = STUDIO_THINGS_PANEL(object);
+    g_hash_table_unref(panel->bound);
+    g_hash_table_unref(panel->loads);
+    G_OBJECT_CLASS(studio_things_panel_parent_class)->finalize(object);
+}
+
 static void studio_things_panel_class_init(StudioThingsPanelClass *class) {
+    G_OBJECT_CLASS(class)->finalize = studio_things_panel_finalize;
     selected_signal = g_signal_new("selected", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL,
                                    NULL, NULL, G_TYPE_NONE, 1, G_TYPE_UINT);
 }
 
 static void studio_things_panel_init(StudioThingsPanel *panel) {
+    panel->bound = g_hash_table_new(NULL, NULL);
+    panel->loads = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
     panel->things = g_object_new(STUDIO_TYPE_THINGS, NULL);
     panel->selection = gtk_single_selection_new(G_LIST_MODEL(panel->things));
     gtk_single_selection_set_autoselect(panel->selection, FALSE);
@@ -224,6 +294,7 @@ static void studio_things_panel_init(StudioThingsPanel *panel) {
     GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
     g_signal_connect(factory, "setup", G_CALLBACK(on_setup), NULL);
     g_signal_connect(factory, "bind", G_CALLBACK(on_bind), panel);
+    g_signal_connect(factory, "unbind", G_CALLBACK(on_unbind), panel);
     panel->list = gtk_list_view_new(GTK_SELECTION_MODEL(panel->selection), factory);
     gtk_widget_add_css_class(panel->list, "navigation-sidebar");
     gtk_widget_set_name(panel->list, "things");

@@ -53,6 +53,7 @@ static void take(StudioWindow *window, const StudioBuilt *built) {
         window->times = built->times;
         show_amount(window, &built->times, studio_document_steps(window->document) > 0);
         studio_graph_panel_set_counts(window->graph, built->counts);
+        studio_things_panel_set_loads(window->things, built->loads);
         studio_string_panel_match(window->string);
     }
     if (built->is_growing) {

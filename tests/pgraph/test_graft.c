@@ -170,6 +170,21 @@ static void recursion(void) {
     built_free(built);
 }
 
+// How long the grafts take is told with them: they are what takes time here.
+static void times(void) {
+    Built built = {.graph = tree(), .diags = fr_diags_new()};
+    FrContext context = fr_context_default();
+    double wanted;
+    context.diags = built.diags;
+    built.counts.seconds = &wanted;
+    built.status =
+        fr_pgraph_build_grafted(built.graph, &graft, &context, &built.plant, &built.counts);
+    g_assert_cmpint(built.status, ==, FR_OK);
+    double each = built.counts.seconds[fr_pgraph_find(built.graph, "g")];
+    g_assert_cmpfloat(each, >, 0); // and no NAN
+    built_free(built);
+}
+
 static void wrong(void) {
     FrPgraph *graph = tree();
     FrDiags *diags = fr_diags_new();
@@ -201,6 +216,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/pgraph/graft/all organs have keys of their own", keys);
     g_test_add_func("/pgraph/graft/grafts count against the limits", limits);
     g_test_add_func("/pgraph/graft/its symbols may place grafts again", recursion);
+    g_test_add_func("/pgraph/graft/grafts have a time", times);
     g_test_add_func("/pgraph/graft/wrong links and unknown plants are errors", wrong);
     return g_test_run();
 }

@@ -35,6 +35,69 @@ static void test_builds(Fixture *fixture, gconstpointer data) {
     studio_document_free(document);
 }
 
+static StudioPlantLoad load_of(const StudioBuilt *built, const char *plant) {
+    for (guint i = 0; i < built->loads->len; i++) {
+        const StudioPlantLoad *load = &g_array_index(built->loads, StudioPlantLoad, i);
+        if (strcmp(load->plant, plant) == 0) {
+            return *load;
+        }
+    }
+    return (StudioPlantLoad){0};
+}
+
+// Times are those of all there is; how long it takes is the machine's.
+static void test_times(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    static const char text[] =
+        "<frond version='1'><plant id='leafy'><pgraph><horn id='stem'/></pgraph></plant>"
+        "<plant id='host'><pgraph><horn id='trunk'/><graft id='scion' plant='leafy'/>"
+        "<leaf id='leaf'/><link from='trunk' to='scion'/><link from='trunk' to='leaf'/></pgraph>"
+        "</plant><scene><row plants='host' spacing='1' individuals='2'>0,0,0 3,0,0</row></scene>"
+        "</frond>";
+    StudioDocument *document = studio_document_new(text, strlen(text), "t", NULL);
+    request(fixture, document, NAN);
+    const StudioBuilt *built = await(fixture);
+    static const char *const components[] = {"trunk", "scion", "leaf"};
+    for (size_t i = 0; i < G_N_ELEMENTS(components); i++) {
+        StudioCount count = counted(built, components[i]);
+        g_assert_cmpfloat(count.seconds, >=, count.skin_seconds); // and no NAN
+    }
+    g_assert_cmpfloat(counted(built, "trunk").skin_seconds, >, 0);
+    StudioPlantLoad host = load_of(built, "host");
+    g_assert_cmpuint(host.stands, ==, 4);
+    double sum = 0;
+    for (guint i = 0; i < built->counts->len; i++) {
+        sum += g_array_index(built->counts, StudioCount, i).seconds;
+    }
+    g_assert_cmpfloat_with_epsilon(host.seconds, sum, 1e-9);
+    g_assert_null(load_of(built, "leafy").plant); // it stands nowhere by itself
+    studio_builder_release(fixture->builder);
+    studio_document_free(document);
+}
+
+static void test_species_times(Fixture *fixture, gconstpointer data) {
+    (void)data;
+    static const char text[] =
+        "<frond version='1'><plant id='a'><species/></plant><plant id='b'><species/></plant>"
+        "<scene><growth steps='5'/><place plant='a'/><place plant='a' at='9,0,0'/>"
+        "<place plant='b' at='0,9,0'/></scene></frond>";
+    StudioDocument *document = studio_document_new(text, strlen(text), "t", NULL);
+    request_step(fixture, document, 5);
+    const StudioBuilt *built = await(fixture);
+    StudioPlantLoad a = load_of(built, "a"), b = load_of(built, "b");
+    g_assert_cmpuint(a.stands, ==, 2);
+    g_assert_cmpuint(b.stands, ==, 1);
+    double growth = 0;
+    for (guint i = 0; i < built->view->scene->steps->len; i++) {
+        growth += g_array_index(built->view->scene->steps, FrSceneStep, i).seconds;
+    }
+    g_assert_cmpfloat(a.seconds, >, 0);
+    g_assert_cmpfloat(b.seconds, >, 0);
+    g_assert_cmpfloat(a.seconds + b.seconds, >=, growth * (1 - 1e-9)); // and the skins
+    studio_builder_release(fixture->builder);
+    studio_document_free(document);
+}
+
 static void test_forget(Fixture *fixture, gconstpointer data) {
     (void)data;
     StudioDocument *first = open_example("examples/figure2.frond");
@@ -390,6 +453,8 @@ int main(int argc, char **argv) {
     ADD("/studio/builder/what was asked for of a document that has gone is told apart",
         test_forget);
     ADD("/studio/builder/a document becomes a view with counts", test_builds);
+    ADD("/studio/builder/times are of grafts, skins and whole plants, too", test_times);
+    ADD("/studio/builder/species share the time of their growth", test_species_times);
     ADD("/studio/builder/the first leaves of a batch are spread over all", test_leaves);
     ADD("/studio/builder/a ball holds all of a plant and little else", test_extent);
     ADD("/studio/builder/many plants that stand share what is drawn while the view moves",

@@ -19,6 +19,7 @@ static void built_free(StudioBuilt *built) {
     if (built != NULL) {
         fr_diags_free(built->diags);
         g_clear_pointer(&built->counts, g_array_unref);
+        g_clear_pointer(&built->loads, g_array_unref);
         g_free(built);
     }
 }
@@ -149,7 +150,9 @@ static FrStatus build(StudioBuilder *builder, const StudioRequest *request,
     }
     built->times.build = seconds_since(began) - built->times.view;
     if (built->view != NULL) {
-        built->counts = studio_counts_of(builder->view->scene);
+        built->counts = studio_counts_of(builder->view);
+        built->loads = studio_plant_loads(builder->view, built->counts,
+                                          built->is_growing ? builder->grower : NULL);
         paint_looks(builder);
         hand_ground(builder, ground);
     } else {

@@ -28,6 +28,7 @@ typedef struct StudioBuilt {
     FrDiags *diags;         ///< what is wrong, and warnings; with places in the text
     const StudioView *view; ///< NULL: nothing new to draw. Valid until studio_builder_release()
     GArray *counts;         ///< StudioCount; NULL without a view
+    GArray *loads;          ///< StudioPlantLoad; NULL without a view
     StudioTimes times;
     bool is_growing;           ///< its plants grow bud by bud, …
     uint64_t step, step_count; ///< … are at this step, of so many that the document asks for

@@ -3,6 +3,7 @@
 #include "frond/simulation.h"
 
 #include <cglm/struct.h>
+#include <string.h>
 
 enum { STEPS_BACK = 200 };
 
@@ -147,6 +148,17 @@ uint64_t studio_grower_step(const StudioGrower *grower) {
 
 uint64_t studio_grower_step_count(const StudioGrower *grower) {
     return grower->simulation == NULL ? 0 : fr_simulation_step_count(grower->simulation);
+}
+
+bool studio_grower_grows(const StudioGrower *grower, const char *plant) {
+    const GPtrArray *plants =
+        grower->document == NULL ? NULL : fr_document_plants(grower->document);
+    bool is_it = false;
+    for (guint i = 0; plants != NULL && i < plants->len && !is_it; i++) {
+        const FrPlantDef *definition = g_ptr_array_index(plants, i);
+        is_it = definition->kind == FR_PLANT_SPECIES && strcmp(definition->id, plant) == 0;
+    }
+    return is_it;
 }
 
 const FrGrowth *studio_grower_growth(const StudioGrower *grower) {

@@ -23,6 +23,8 @@ FR_MUST_USE FrStatus studio_grower_go(StudioGrower *grower, int64_t step, const 
 /// The step it is at, and how many the document asks for.
 uint64_t studio_grower_step(const StudioGrower *grower);
 uint64_t studio_grower_step_count(const StudioGrower *grower);
+/// Whether the plants with an id grow bud by bud.
+bool studio_grower_grows(const StudioGrower *grower, const char *plant);
 /// How its plants grow, to be looked at; NULL: nothing has been shown, or nothing grows bud by bud.
 const FrGrowth *studio_grower_growth(const StudioGrower *grower);
 /// What stands now; borrowed until it goes on. Free with studio_view_free().

@@ -251,7 +251,9 @@ static StudioPlant *plant_new(const FrScenePlant *built, const FrSkin *wood,
         FrStatus status = fr_scene_mesh(built, &params, FR_UP_Z, context, &view->foliage);
         view->foliage = status == FR_OK ? view->foliage : NULL;
     } else {
+        gint64 began = g_get_monotonic_time();
         fill_leaves(view);
+        view->leaf_seconds = (double)(g_get_monotonic_time() - began) * 1e-6;
         add_shapes(view, context);
     }
     fill_points(view);

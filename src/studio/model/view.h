@@ -48,16 +48,17 @@ typedef struct StudioPlant {
     const FrSkin *wood;                        ///< borrowed
     FrMesh *coarse_wood[STUDIO_COARSE_LEVELS]; ///< for while the view moves, the first is the
                                                ///< finest; NULL: not made yet
-    FrMesh *foliage;  ///< of a plant whose leaves are deformed, or all of one that is shown as
-                      ///< rational surfaces; else NULL
-    bool is_rational; ///< shown as rational surfaces: no wood is drawn
-    GArray *leaves;   ///< StudioLeaf
-    GArray *batches;  ///< StudioBatch
-    GArray *shapes;   ///< StudioShape, by shape of the plant
-    GArray *looks;    ///< StudioLook, by material of the plant
-    GArray *points;   ///< StudioPoint
-    vec3s middle;     ///< of a ball around all of it …
-    float radius;     ///< … that is m wide; < 0: there is nothing
+    FrMesh *foliage;     ///< of a plant whose leaves are deformed, or all of one that is shown as
+                         ///< rational surfaces; else NULL
+    bool is_rational;    ///< shown as rational surfaces: no wood is drawn
+    GArray *leaves;      ///< StudioLeaf
+    GArray *batches;     ///< StudioBatch
+    GArray *shapes;      ///< StudioShape, by shape of the plant
+    GArray *looks;       ///< StudioLook, by material of the plant
+    GArray *points;      ///< StudioPoint
+    vec3s middle;        ///< of a ball around all of it …
+    float radius;        ///< … that is m wide; < 0: there is nothing
+    double leaf_seconds; ///< that placing its leaves took
 } StudioPlant;
 
 typedef struct StudioView {
