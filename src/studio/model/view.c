@@ -164,6 +164,7 @@ static StudioLook look_of(FrMaterial *material) {
         .roughness = (float)params->roughness,
         .relief = (float)params->relief,
         .mirror = (float)params->mirror,
+        .clear = (float)params->clear,
     };
 }
 

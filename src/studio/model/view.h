@@ -31,7 +31,7 @@ typedef struct StudioLook {
     FrDigest digest;       ///< of all that its pictures depend on
     float tint[3];         ///< linear; of what has no picture
     float picture_tint[3]; ///< linear; multiplies the picture
-    float alpha_cutoff, translucency, roughness, relief, mirror;
+    float alpha_cutoff, translucency, roughness, relief, mirror, clear;
 } StudioLook;
 
 /// A point of the skeleton: lines run from each first to each second of a pair.

@@ -252,6 +252,25 @@ static double fine_leaves(const GArray *list, bool is_still_only) {
 
 // ---- lists -------------------------------------------------------------------------------------
 
+// Puts what is clear behind all else, the farthest first: it is drawn over what is seen through it.
+static GArray *with_clear_last(GArray *list) {
+    GArray *sorted = g_array_sized_new(FALSE, FALSE, sizeof(StudioPiece), list->len);
+    for (guint i = 0; i < list->len; i++) {
+        const StudioPiece *piece = &g_array_index(list, StudioPiece, i);
+        if (piece->look.clear <= 0) {
+            g_array_append_vals(sorted, piece, 1);
+        }
+    }
+    for (guint i = list->len; i > 0 && sorted->len < list->len; i--) {
+        const StudioPiece *piece = &g_array_index(list, StudioPiece, i - 1);
+        if (piece->look.clear > 0) {
+            g_array_append_vals(sorted, piece, 1);
+        }
+    }
+    g_array_unref(list);
+    return sorted;
+}
+
 static GArray *new_list(void) {
     return g_array_new(FALSE, FALSE, sizeof(StudioPiece));
 }
@@ -263,7 +282,7 @@ GArray *studio_store_list_fine(const StudioStore *store, const StudioOutlook *ou
         list_plant(store, &g_array_index(seen, Seen, i), false, most, list);
     }
     g_array_unref(seen);
-    return list;
+    return with_clear_last(list);
 }
 
 GArray *studio_store_list_coarse(const StudioStore *store, const StudioOutlook *outlook,
@@ -279,5 +298,5 @@ GArray *studio_store_list_coarse(const StudioStore *store, const StudioOutlook *
         list_plant(store, one, !is_fine, most, list);
     }
     g_array_unref(seen);
-    return list;
+    return with_clear_last(list);
 }

@@ -45,7 +45,7 @@ static const struct {
 static const GLint map_units[STUDIO_MAPS] = {0, 2, 3}; // 1 is the shadow
 
 static const char *const dress_names[STUDIO_DRESS] = {"cutoff", "translucency", "roughness",
-                                                      "relief", "mirror"};
+                                                      "relief", "mirror",       "clear"};
 
 StudioPen studio_pen_begin(GLuint program, bool has_details) {
     StudioPen pen = {.has_details = has_details,
@@ -89,7 +89,7 @@ static void use_leaves(const StudioPiece *piece) {
 // What surfaces do to light.
 static void use_dress(const StudioPen *pen, const StudioDress *dress) {
     const float values[STUDIO_DRESS] = {dress->cutoff, dress->translucency, dress->roughness,
-                                        dress->relief, dress->mirror};
+                                        dress->relief, dress->mirror,       dress->clear};
     glUniform3fv(pen->tint, 1, dress->tint);
     for (int i = 0; i < STUDIO_DRESS; i++) {
         glUniform1f(pen->dress[i], values[i]);
@@ -103,6 +103,18 @@ static void use_maps(const StudioPen *pen, const StudioPiece *piece) {
         glUniform1i(pen->has_map[i], textures[i] != 0);
         glActiveTexture((GLenum)(GL_TEXTURE0 + map_units[i]));
         glBindTexture(GL_TEXTURE_2D, textures[i]);
+    }
+}
+
+// What is behind glass comes through as the program says; there is nothing to say for shadows.
+static void use_clear(const StudioPen *pen, bool is_clear) {
+    if (is_clear && pen->dress[STUDIO_DRESS - 1] >= 0) {
+        glEnable(GL_BLEND);
+        glBlendFuncSeparate(GL_ONE, GL_SRC1_COLOR, GL_ZERO, GL_ONE);
+        glDepthMask(GL_FALSE);
+    } else {
+        glDisable(GL_BLEND);
+        glDepthMask(GL_TRUE);
     }
 }
 
@@ -122,6 +134,9 @@ static void use_piece(StudioPen *pen, const StudioPiece *piece) {
     }
     if (is_first || memcmp(&piece->model, &last->model, sizeof piece->model) != 0) {
         glUniformMatrix4fv(pen->model, 1, GL_FALSE, piece->model.raw[0]);
+    }
+    if (is_first || (piece->look.clear > 0) != (last->look.clear > 0)) {
+        use_clear(pen, piece->look.clear > 0);
     }
     if (is_first || memcmp(&piece->look, &last->look, sizeof piece->look) != 0) {
         use_dress(pen, &piece->look);
@@ -155,4 +170,8 @@ void studio_pen_draw(StudioPen *pen, const StudioPiece *piece) {
     } else {
         glDrawElements(GL_TRIANGLES, (GLsizei)piece->index_count, GL_UNSIGNED_INT, first);
     }
+}
+
+void studio_pen_end(StudioPen *pen) {
+    use_clear(pen, false);
 }

@@ -4,7 +4,7 @@
 
 #include "studio/view/store.h"
 
-enum { STUDIO_MAPS = 3, STUDIO_DRESS = 5 };
+enum { STUDIO_MAPS = 3, STUDIO_DRESS = 6 };
 
 /// A program that is in use, the places of its uniforms, and the piece that it has drawn last.
 typedef struct StudioPen {
@@ -21,7 +21,10 @@ void studio_piece_attribute(GLuint index, GLint size, size_t stride, size_t offs
 /// Sets the light of a scene but for the direction of its sun.
 void studio_piece_light(GLuint program, const FrShading *shading);
 
-/// Draws one piece after the other, and tells the driver only what differs from the last one: a
-/// scene has thousands of small pieces, of which many are of equal plants.
+/// Draws one piece after the other, clear ones over what is there. The driver is told only what
+/// differs from the last one: a scene has thousands of small pieces, of which many are of equal
+/// plants.
 StudioPen studio_pen_begin(GLuint program, bool has_details);
 void studio_pen_draw(StudioPen *pen, const StudioPiece *piece);
+/// What is drawn afterwards hides what is behind it, as before.
+void studio_pen_end(StudioPen *pen);

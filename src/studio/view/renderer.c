@@ -10,6 +10,7 @@
 enum {
     SHADOW_SIZE = 2048,
     SHADOW_TRIANGLES = 250000,
+    LAMP_TRIANGLES = 60000, // of each map
     SLICE_TRIANGLES = 12000,
     PIECE_COST = 500,         // of a piece by itself, in triangles
     WIRE_TRIANGLES = 1000000, // from which on a wireframe is a coarse one
@@ -29,7 +30,9 @@ struct StudioRenderer {
     int across, down;    // pixels of the desktop
     StudioPacing pacing; // of coarse pictures
     Stage stage;         // of the fine picture
-    bool is_shadow_old, has_shadow_map, is_coarse_old;
+    bool is_coarse_old;
+    guint map; // of shadows that is to be drawn next: that of the sun, then those of lamps
+    StudioLampMaps lamps;
     GArray *slices; // StudioPiece of the stage
     guint next;     // slice
     double fine_began, fine_spent;
@@ -55,9 +58,8 @@ StudioRenderer *studio_renderer_new(GError **error) {
     glGenVertexArrays(1, &renderer->array);
     renderer->store = studio_store_new();
     renderer->pacing = studio_pacing_new();
-    renderer->is_shadow_old = true;
     renderer->is_coarse_old = true;
-    studio_target_make_shadow(&renderer->shadow_map, SHADOW_SIZE);
+    studio_target_make_shadow(&renderer->shadow_map, SHADOW_SIZE, SHADOW_SIZE);
     return renderer;
 }
 
@@ -72,6 +74,7 @@ void studio_renderer_free(StudioRenderer *renderer) {
     studio_target_clear(&renderer->coarse);
     studio_target_clear(&renderer->fine);
     studio_target_clear(&renderer->shadow_map);
+    studio_lamp_maps_clear(&renderer->lamps);
     g_clear_pointer(&renderer->slices, g_array_unref);
     g_free(renderer);
 }
@@ -101,25 +104,36 @@ void studio_renderer_resize(StudioRenderer *renderer, int width, int height, int
 void studio_renderer_invalidate(StudioRenderer *renderer, bool is_geometry) {
     renderer->stage = STAGE_NOTHING;
     renderer->is_coarse_old = true;
-    renderer->is_shadow_old = renderer->is_shadow_old || is_geometry;
+    renderer->map = is_geometry ? 0 : renderer->map;
 }
 
 // ---- pictures ----------------------------------------------------------------------------------
 
-// Draws what stands still, or all else; how many triangles it was.
-static uint64_t draw_pieces(const StudioShot *shot, GLuint program, const GArray *list,
-                            bool is_still) {
-    uint64_t triangles = 0;
+// In this order: what stands still, all else, and what is clear.
+enum { GROUP_STILL, GROUP_OTHER, GROUP_CLEAR, GROUP_COUNT };
+
+static int group_of(const StudioPiece *piece) {
+    return piece->look.clear > 0 ? GROUP_CLEAR : piece->is_still ? GROUP_STILL : GROUP_OTHER;
+}
+
+static void draw_group(const StudioShot *shot, GLuint program, const GArray *list, int group) {
     studio_shot_use(shot, program);
     StudioPen pen = studio_pen_begin(program, false);
     for (guint i = 0; i < list->len; i++) {
         const StudioPiece *piece = &g_array_index(list, StudioPiece, i);
-        if (piece->is_still == is_still) {
+        if (group_of(piece) == group) {
             studio_pen_draw(&pen, piece);
-            triangles += piece->triangles;
         }
     }
+    studio_pen_end(&pen);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+static uint64_t triangles_of(const GArray *list) {
+    uint64_t triangles = 0;
+    for (guint i = 0; i < list->len; i++) {
+        triangles += g_array_index(list, StudioPiece, i).triangles;
+    }
     return triangles;
 }
 
@@ -136,12 +150,13 @@ static void draw_coarse(StudioRenderer *renderer, StudioShot *shot, const Studio
     } else {
         StudioOutlook outlook = studio_shot_outlook(shot);
         const StudioPrograms *programs = &renderer->programs;
+        const GLuint plain[GROUP_COUNT] = {programs->still, programs->plain, programs->still};
         GArray *list = studio_store_list_coarse(renderer->store, &outlook,
                                                 (uint64_t)pacing->triangles, UINT32_MAX);
-        bool is_plain = shot->is_plain;
-        renderer->pace.coarse_triangles =
-            draw_pieces(shot, is_plain ? programs->still : programs->surface, list, true) +
-            draw_pieces(shot, is_plain ? programs->plain : programs->surface, list, false);
+        for (int group = 0; group < GROUP_COUNT; group++) {
+            draw_group(shot, shot->is_plain ? plain[group] : programs->surface, list, group);
+        }
+        renderer->pace.coarse_triangles = triangles_of(list);
         g_array_unref(list);
     }
     glFinish();
@@ -182,13 +197,34 @@ static void begin_stage(StudioRenderer *renderer, Stage stage, GArray *slices) {
     renderer->next = 0;
 }
 
-static void begin_shadow(StudioRenderer *renderer) {
+static bool has_sun(const StudioRenderer *renderer) {
+    vec3s sun = studio_store_shading(renderer->store)->sun;
+    return sun.r + sun.g + sun.b > 0;
+}
+
+static GArray *begin_sun_map(StudioRenderer *renderer) {
+    double min[3], max[3];
+    studio_store_bounds(renderer->store, min, max);
+    studio_lamp_maps_aim(&renderer->lamps, studio_store_shading(renderer->store), min, max);
     aim_shadow(renderer);
     studio_target_open(&renderer->shadow_map);
     glClear(GL_DEPTH_BUFFER_BIT);
-    renderer->has_shadow_map = false;
+    if (!has_sun(renderer)) {
+        return g_array_new(FALSE, FALSE, sizeof(StudioPiece));
+    }
+    return studio_store_list_coarse(renderer->store, NULL, SHADOW_TRIANGLES, SLICE_TRIANGLES);
+}
+
+static GArray *begin_lamp_map(StudioRenderer *renderer) {
+    uint32_t map = renderer->map - 1;
+    StudioOutlook outlook = studio_lamp_maps_outlook(&renderer->lamps, map);
+    studio_lamp_maps_begin(&renderer->lamps, map);
+    return studio_store_list_coarse(renderer->store, &outlook, LAMP_TRIANGLES, SLICE_TRIANGLES);
+}
+
+static void begin_map(StudioRenderer *renderer) {
     begin_stage(renderer, STAGE_SHADOW,
-                studio_store_list_coarse(renderer->store, NULL, SHADOW_TRIANGLES, SLICE_TRIANGLES));
+                renderer->map == 0 ? begin_sun_map(renderer) : begin_lamp_map(renderer));
 }
 
 // Lines of more triangles would fill the picture: then those of the coarse scene are drawn.
@@ -215,32 +251,42 @@ static void end_fine(StudioRenderer *renderer, StudioShot *shot) {
         studio_shot_draw_skeletons(shot);
     }
     renderer->stage = STAGE_DONE;
-    renderer->pace.fine_seconds = renderer->fine_spent;
-    renderer->pace.fine_triangles = 0;
-    for (guint i = 0; i < renderer->slices->len; i++) {
-        renderer->pace.fine_triangles += g_array_index(renderer->slices, StudioPiece, i).triangles;
+    renderer->pace.fine_triangles = triangles_of(renderer->slices);
+}
+
+// What is drawn from then on goes to the map of shadows.
+static void use_map(const StudioRenderer *renderer) {
+    const mat4s *clip = &renderer->to_shadow;
+    if (renderer->map == 0) {
+        studio_target_open(&renderer->shadow_map);
+    } else {
+        studio_lamp_maps_open(&renderer->lamps, renderer->map - 1);
+        clip = &renderer->lamps.to_map[renderer->map - 1];
     }
+    glUseProgram(renderer->programs.shadow);
+    studio_program_matrix(renderer->programs.shadow, "clip", clip);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(renderer->map == 0 ? 1.5f : 3,
+                    2); // what lamps see is wide, and steep at its edge
 }
 
 // Draws slices of the stage until `until`; true if they are all drawn.
 static bool draw_slices(StudioRenderer *renderer, const StudioShot *shot, double until) {
     bool is_shadow = renderer->stage == STAGE_SHADOW;
-    studio_target_open(is_shadow ? &renderer->shadow_map : &renderer->fine);
-    GLuint program = renderer->programs.shadow;
+    GLuint program = is_shadow ? renderer->programs.shadow : renderer->programs.surface;
     if (is_shadow) {
-        glUseProgram(program);
-        studio_program_matrix(program, "clip", &renderer->to_shadow);
-        glEnable(GL_POLYGON_OFFSET_FILL);
-        glPolygonOffset(1.5f, 2.0f);
+        use_map(renderer);
     } else {
-        program = renderer->programs.surface;
+        studio_target_open(&renderer->fine);
         studio_shot_use(shot, program);
     }
     StudioPen pen = studio_pen_begin(program, !is_shadow);
     uint64_t waiting = 0; // triangles; small pieces are waited for together
     while (renderer->next < renderer->slices->len) {
         const StudioPiece *piece = &g_array_index(renderer->slices, StudioPiece, renderer->next++);
-        studio_pen_draw(&pen, piece);
+        if (!is_shadow || piece->look.clear < 0.5f) { // clear glass lets light through
+            studio_pen_draw(&pen, piece);
+        }
         waiting += piece->triangles + PIECE_COST;
         if (waiting < SLICE_TRIANGLES) {
             continue;
@@ -251,44 +297,57 @@ static bool draw_slices(StudioRenderer *renderer, const StudioShot *shot, double
             break;
         }
     }
+    studio_pen_end(&pen);
     glDisable(GL_POLYGON_OFFSET_FILL);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     return renderer->next == renderer->slices->len;
 }
 
 // Shadows are shown where there is a sun and a map of what it sees.
-static void use_shadow_map(const StudioRenderer *renderer, StudioShot *shot) {
-    vec3s sun = studio_store_shading(renderer->store)->sun;
+static void use_shadow_maps(const StudioRenderer *renderer, StudioShot *shot) {
     shot->shadow = renderer->shadow_map.depth;
     shot->to_shadow = renderer->to_shadow;
-    shot->has_shadow =
-        sun.r + sun.g + sun.b > 0 && shot->display->has_shadow && renderer->has_shadow_map;
+    shot->has_shadow = has_sun(renderer) && shot->display->has_shadow && renderer->map > 0;
+    shot->lamps = &renderer->lamps;
+}
+
+// Shadows come first, as the fine picture needs them.
+static void begin_next(StudioRenderer *renderer, StudioShot *shot, const StudioCamera *camera) {
+    bool has_maps = shot->display->has_shadow && shot->display->mode != STUDIO_SKELETON;
+    if (has_maps && renderer->map <= renderer->lamps.count) {
+        begin_map(renderer);
+    } else {
+        use_shadow_maps(renderer, shot);
+        begin_fine(renderer, shot, camera);
+    }
+}
+
+static void end_stage(StudioRenderer *renderer, StudioShot *shot, const StudioCamera *camera) {
+    if (renderer->stage == STAGE_FINE) {
+        end_fine(renderer, shot);
+        return;
+    }
+    renderer->lamps.ready = renderer->map++;
+    begin_next(renderer, shot, camera);
 }
 
 static void refine(StudioRenderer *renderer, StudioShot *shot, const StudioCamera *camera) {
     double began = now(), until = began + slice_seconds;
     if (renderer->stage == STAGE_NOTHING) {
         renderer->fine_spent = 0;
-        if (renderer->is_shadow_old && shot->display->has_shadow &&
-            shot->display->mode != STUDIO_SKELETON) {
-            begin_shadow(renderer);
-        } else {
-            begin_fine(renderer, shot, camera);
+        begin_next(renderer, shot, camera);
+    }
+    while (draw_slices(renderer, shot, until)) {
+        end_stage(renderer, shot, camera);
+        if (renderer->stage == STAGE_DONE || now() >= until) {
+            break;
         }
-    }
-    bool is_stage_done = draw_slices(renderer, shot, until);
-    if (is_stage_done && renderer->stage == STAGE_SHADOW) {
-        renderer->is_shadow_old = false;
-        renderer->has_shadow_map = true;
-        use_shadow_map(renderer, shot);
-        begin_fine(renderer, shot, camera);
-        is_stage_done = now() < until && draw_slices(renderer, shot, until);
-    }
-    if (is_stage_done && renderer->stage == STAGE_FINE) {
-        end_fine(renderer, shot);
     }
     glFinish();
     renderer->fine_spent += now() - began;
+    if (renderer->stage == STAGE_DONE) {
+        renderer->pace.fine_seconds = renderer->fine_spent;
+    }
 }
 
 static void show(const StudioRenderer *renderer, const StudioShot *shot, const StudioTarget *target,
@@ -326,7 +385,7 @@ bool studio_renderer_draw(StudioRenderer *renderer, const StudioCamera *camera,
     double aspect = (double)renderer->width / renderer->height;
     StudioShot shot = studio_shot_new(renderer->store, camera, display, aspect);
     shot.programs = &renderer->programs;
-    use_shadow_map(renderer, &shot);
+    use_shadow_maps(renderer, &shot);
     if (is_moving) {
         renderer->stage = STAGE_NOTHING;
     }

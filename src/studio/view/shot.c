@@ -63,6 +63,7 @@ void studio_shot_use(const StudioShot *shot, GLuint program) {
     studio_program_vec3(program, "sun", sun);
     studio_program_int(program, "is_wire", shot->display->mode == STUDIO_WIREFRAME);
     studio_piece_light(program, studio_store_shading(shot->store));
+    studio_lamp_maps_use(shot->lamps, program, shot->display->has_shadow);
     use_wind(shot, program);
     use_shadow(shot, program);
     glPolygonMode(GL_FRONT_AND_BACK, shot->display->mode == STUDIO_WIREFRAME ? GL_LINE : GL_FILL);

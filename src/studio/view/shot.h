@@ -5,6 +5,7 @@
 
 #include "studio/model/camera.h"
 #include "studio/view/display.h"
+#include "studio/view/lamp_maps.h"
 #include "studio/view/program.h"
 #include "studio/view/store.h"
 #include "studio/view/target.h"
@@ -23,6 +24,7 @@ typedef struct StudioShot {
     const StudioDisplay *display;
     GLuint shadow; ///< map of depths from the sun
     bool has_shadow;
+    const StudioLampMaps *lamps;
     bool is_plain; ///< quick rather than fine
     mat4s to_shadow, clip;
     float eye[3];

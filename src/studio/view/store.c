@@ -176,7 +176,8 @@ static void copy_looks(Plant *plant, const StudioPlant *from) {
                               .translucency = look->translucency,
                               .roughness = look->roughness,
                               .relief = look->relief,
-                              .mirror = look->mirror}};
+                              .mirror = look->mirror,
+                              .clear = look->clear}};
         memcpy(own.dress.tint, look->tint, sizeof own.dress.tint);
         memcpy(own.picture_tint, look->picture_tint, sizeof own.picture_tint);
         g_array_append_val(plant->looks, own);

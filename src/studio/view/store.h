@@ -13,7 +13,7 @@ typedef struct StudioStore StudioStore;
 /// What a surface does to light; the colour linear, and multiplied by that of the picture.
 typedef struct StudioDress {
     float tint[3];
-    float cutoff, translucency, roughness, relief, mirror;
+    float cutoff, translucency, roughness, relief, mirror, clear;
 } StudioDress;
 
 /// Something to draw in one call.

@@ -51,13 +51,34 @@ static const char studio_surface_vertex[] =
                                                                                                 FR_AGX_OUTSET) ")) * x, 0.0, 1.0);\n" \
                                                                                                                "}\n"
 
-/// The sun with its shadow, sky and ground from all sides, lamps without shadow.
+/// The sun, sky and ground from all sides, and lamps with their shadows (view/lamp_maps.h); those
+/// of large lamps are soft.
 #define STUDIO_LIGHT                                                                               \
     "uniform vec3 sky[9], sun, sun_colour, eye;\n"                                                 \
     "uniform int lamp_count;\n"                                                                    \
     "uniform vec4 lamp_at[8], lamp_axis[8];\n" /* and size; cosine of the cone, above 1: an area   \
                                                 */                                                 \
     "uniform vec3 lamp_colour[8];\n"                                                               \
+    "uniform sampler2DShadow lamp_maps; uniform mat4 to_lamp[12]; uniform vec3 lamp_map[8];\n"     \
+    "float lamp_lit(int i, vec3 way, float far) {\n"                                               \
+    "    if (lamp_map[i].y == 0.0) return 1.0;\n"                                                  \
+    "    vec3 a = abs(way); int map = int(lamp_map[i].x);\n"                                       \
+    "    if (lamp_map[i].y > 1.0) {\n"                                                             \
+    "        map += a.x >= max(a.y, a.z) ? (way.x < 0.0 ? 0 : 1)\n"                                \
+    "               : a.y >= a.z ? (way.y < 0.0 ? 2 : 3) : (way.z < 0.0 ? 4 : 5);\n"               \
+    "    }\n"                                                                                      \
+    "    vec4 p = to_lamp[map] * vec4(at + way * far * 0.006, 1.0);\n"                             \
+    "    vec3 s = p.xyz / max(p.w, 1e-6) * 0.5 + 0.5; vec2 cell = vec2(map % 4, map / 4);\n"       \
+    "    if (any(lessThan(s.xy, vec2(0.0))) || any(greaterThan(s.xy, vec2(1.0)))) return 1.0;\n"   \
+    "    float wide = clamp(lamp_map[i].z / far, 0.003, 0.02), sum = 0.0;\n"                       \
+    "    float turn = 6.2832 * fract(sin(dot(at, vec3(127.1, 311.7, 74.7))) * 43758.5453);\n"      \
+    "    for (int k = 0; k < 4; k++) {\n"                                                          \
+    "        vec2 o = vec2(cos(turn), sin(turn)) * wide * sqrt((float(k) + 0.5) / 4.0);\n"         \
+    "        vec2 q = (cell + clamp(s.xy + o, 0.001, 0.999)) / vec2(4.0, 3.0);\n"                  \
+    "        sum += texture(lamp_maps, vec3(q, s.z)); turn += 2.39996;\n"                          \
+    "    }\n"                                                                                      \
+    "    return sum * 0.25;\n"                                                                     \
+    "}\n"                                                                                          \
     "vec3 from_sky(vec3 n) {\n"                                                                    \
     "    return max(sky[0] + sky[1] * n.y + sky[2] * n.z + sky[3] * n.x + sky[4] * n.x * n.y\n"    \
     "               + sky[5] * n.y * n.z + sky[6] * (3.0 * n.z * n.z - 1.0)\n"                     \
@@ -126,7 +147,8 @@ static const char studio_surface_vertex[] =
     "before);\n"                                                                                   \
     "        part = edge <= -1.0 ? 1.0 : part;\n"                                                  \
     "        float near = lamp_at[i].w * lamp_at[i].w;\n"                                          \
-    "        sum += thrown(s, way, lamp_colour[i] * part / max(square, near));\n"                  \
+    "        sum += thrown(s, way, lamp_colour[i] * part * lamp_lit(i, way, sqrt(square)) / "      \
+    "max(square, near));\n"                                                                        \
     "    }\n"                                                                                      \
     "    return sum;\n"                                                                            \
     "}\n"
@@ -199,16 +221,22 @@ static const char studio_surface_vertex[] =
     "        float q = 0.36 * rough * rough; s.a = 1.0 - 0.5 * q / (q + 0.33); s.b = 0.45 * q / "  \
     "(q + 0.09);\n"                                                                                \
     "    }\n"                                                                                      \
-    "    s.matt *= 1.0 - mirror; s.through *= 1.0 - mirror;\n"                                     \
-    "    s.coat = rough < 1.0 && mirror <= 0.0 ? 0.04 : 0.0; s.width = max(rough * rough, "        \
+    "    float rest = (1.0 - mirror) * (1.0 - clear); s.matt *= rest; s.through *= rest;\n"        \
+    "    s.coat = rough < 1.0 && rest >= 1.0 ? 0.04 : 0.0; s.width = max(rough * rough, "          \
     "0.05);\n"                                                                                     \
     "    s.out_coated = coated(s.coat, s.out_cosine);\n"                                           \
     "    return s;\n"                                                                              \
+    "}\n"                                                                                          \
+    /* What comes through clear glass, and its own light on top, in the colours of the screen. */  \
+    /* Light adds up before the tone curve: a square root here, over a wall in the light. */       \
+    "vec3 beyond_of(vec3 base) { return sqrt(max(base * (1.0 - mirror) * clear, 0.0)); }\n"        \
+    "vec3 over(vec3 own, vec3 beyond) {\n"                                                         \
+    "    vec3 grey = 0.7 * beyond; return sqrt(own * own + grey * grey) - grey;\n"                 \
     "}\n"
 
 /// What light and surfaces are told by.
 #define STUDIO_TOLD                                                                                \
-    "uniform vec3 tint; uniform float cutoff, translucency, roughness, relief, mirror;\n"          \
+    "uniform vec3 tint; uniform float cutoff, translucency, roughness, relief, mirror, clear;\n"   \
     "uniform bool has_picture, is_blade;\n"                                                        \
     "uniform sampler2D picture;\n"                                                                 \
     "uniform sampler2DShadow shadow; uniform mat4 to_shadow; uniform bool has_shadow;\n"           \
@@ -219,8 +247,9 @@ static const char studio_surface_fragment[] =
     "in vec3 at; in vec3 facing; in vec2 tile;\n" STUDIO_TOLD
     "uniform bool has_bumps, has_gloss, is_wire;\n"
     "uniform sampler2D bumps, gloss;\n"
-    "layout(location=0) out vec4 colour;\n" STUDIO_TONE STUDIO_LIGHT STUDIO_LIT STUDIO_SCATTER
-        STUDIO_NORMAL STUDIO_ALL_LIGHT STUDIO_SKIN "vec3 base_here() {\n"
+    "layout(location=0) out vec4 colour; layout(location=0, index=1) out vec4 beyond;\n" STUDIO_TONE
+        STUDIO_LIGHT STUDIO_LIT STUDIO_SCATTER STUDIO_NORMAL STUDIO_ALL_LIGHT STUDIO_SKIN
+    "vec3 base_here() {\n"
     "    if (!has_picture) return tint;\n"
     "    vec4 t = texture(picture, tile);\n"
     "    if (is_blade) {\n" /* smaller pictures of a leaf have softer edges: keep their area */
@@ -236,7 +265,8 @@ static const char studio_surface_fragment[] =
     "    Skin s; s.v = normalize(eye - at); s.n = normal_here(s.v);\n"
     "    float rough = has_gloss ? roughness * texture(gloss, tile).g : roughness;\n"
     "    s = skin_of(s, base, rough, !gl_FrontFacing);\n"
-    "    colour = vec4(tone(all_light(s, base, lit())), 1.0);\n"
+    "    beyond = vec4(beyond_of(base), 1.0);\n"
+    "    colour = vec4(over(tone(all_light(s, base, lit())), beyond.rgb), 1.0);\n"
     "}\n";
 
 /// The same with the light of vertices, for machines on which that of pixels takes too long while
@@ -273,13 +303,14 @@ static const char studio_plain_fragment[] =
 
 /// Walls and water are large: the edges of shadows are where they are, not at their vertices.
 static const char studio_still_vertex[] = STUDIO_PLACE
-    "out vec3 at, sunny, shady; out vec2 tile;\n" STUDIO_PLAIN "void main() {\n"
+    "out vec3 at, sunny, shady; out vec2 tile; flat out vec3 seen;\n" STUDIO_PLAIN "void main() {\n"
     "    Skin s = skin_here(); vec3 base = mean * tint;\n"
-    "    sunny = tone(all_light(s, base, 1.0)); shady = tone(all_light(s, base, 0.0));\n"
+    "    seen = beyond_of(base); sunny = over(tone(all_light(s, base, 1.0)), seen);\n"
+    "    shady = over(tone(all_light(s, base, 0.0)), seen);\n"
     "}\n";
 static const char studio_still_fragment[] =
     "#version 330 core\n"
-    "in vec3 at, sunny, shady;\n"
+    "in vec3 at, sunny, shady; flat in vec3 seen; layout(location=0, index=1) out vec4 beyond;\n"
     "uniform sampler2DShadow shadow; uniform mat4 to_shadow; uniform bool "
     "has_shadow;\n" STUDIO_PAINT STUDIO_LIT_ONCE
-    "void main() { colour = painted(mix(shady, sunny, lit())); }\n";
+    "void main() { colour = painted(mix(shady, sunny, lit())); beyond = vec4(seen, 1.0); }\n";

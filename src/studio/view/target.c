@@ -46,11 +46,12 @@ void studio_target_resize(StudioTarget *target, int width, int height) {
     attach(target);
 }
 
-void studio_target_make_shadow(StudioTarget *target, int size) {
+void studio_target_make_shadow(StudioTarget *target, int width, int height) {
     studio_target_clear(target);
-    target->width = target->height = size;
-    target->depth = new_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, size,
-                                size, GL_LINEAR);
+    target->width = width;
+    target->height = height;
+    target->depth = new_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, width,
+                                height, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     attach(target);

@@ -12,7 +12,7 @@ typedef struct StudioTarget {
 /// Makes it as large as that, with colours.
 void studio_target_resize(StudioTarget *target, int width, int height);
 /// A map of depths to compare with: a shadow.
-void studio_target_make_shadow(StudioTarget *target, int size);
+void studio_target_make_shadow(StudioTarget *target, int width, int height);
 void studio_target_clear(StudioTarget *target);
 /// What follows is drawn to it, with depths.
 void studio_target_open(const StudioTarget *target);
