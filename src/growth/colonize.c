@@ -12,7 +12,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_CHILDREN = 4 };
+enum {
+    MOST_CHILDREN = 4,
+    MOST_DEAD = 16, ///< one in so many particles may be dead: the dead are compared like the living
+};
 #define UNIT 0x1p24f
 #define SAME_WAY 0.995f // cosine: a tenth of an internode between two children
 
@@ -247,6 +250,9 @@ static void sum_up(FrParticles *particles, FrColony *colony) {
     Pull *pulls = (Pull *)(void *)colony->pulls->data;
     const Site *sites = (const Site *)(void *)colony->sites->data;
     for (uint32_t i = 0; i < colony->count; i++) {
+        if (colony->nearest[i] == INFINITY) {
+            continue; // too far from all sites
+        }
         if (colony->nearest[i] < 0 && !particles->is_dead[i]) {
             particles->is_dead[i] = 1;
             particles->dead_count++;
@@ -333,7 +339,7 @@ static void rise(FrGrowth *growth) {
     }
 }
 
-/// Half of the particles being dead, the living move together.
+/// Many particles being dead, the living move together.
 static void compact(FrParticles *particles, FrColony *colony) {
     uint32_t *kept = g_new(uint32_t, particles->count + 1);
     fr_particles_compact(particles, kept);
@@ -383,7 +389,7 @@ FrStatus fr_growth_colonize(FrGrowth *growth, const FrContext *context, bool *ha
     if (has_particles) {
         sum_up(growth->particles, growth->colony);
         grow_pulled(growth, growth->colony);
-        if (growth->particles->dead_count > growth->particles->count / 2) {
+        if (growth->particles->dead_count > growth->particles->count / MOST_DEAD) {
             compact(growth->particles, growth->colony);
         }
     }
