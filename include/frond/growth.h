@@ -139,6 +139,8 @@ FR_API FR_MUST_USE FrStatus fr_growth_step(FrGrowth *growth, const FrContext *co
 FR_API bool fr_growth_undo(FrGrowth *growth);
 /// It reads all plants, for their digest.
 FR_API FrGrowthStats fr_growth_stats(const FrGrowth *growth);
+/// The same on all threads of a pool.
+FR_API FrGrowthStats fr_growth_stats_on(const FrGrowth *growth, FrPool *pool);
 /// Steps so far.
 FR_API uint64_t fr_growth_step_count(const FrGrowth *growth);
 

@@ -332,7 +332,7 @@ FrStatus fr_ecosystem_step(FrEcosystem *ecosystem, FrScene *scene, const FrConte
     if (status != FR_OK) {
         return status;
     }
-    FrGrowthStats stats = fr_growth_stats(ecosystem->growth);
+    FrGrowthStats stats = fr_growth_stats_on(ecosystem->growth, context->pool);
     FrSceneStep step = {.step = stats.step,
                         .seconds = (double)(g_get_monotonic_time() - began) * 1e-6,
                         .light_seconds = stats.light_seconds,
