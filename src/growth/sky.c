@@ -160,7 +160,8 @@ FR_LANES_CLONES static bool choose(const View *view, const float *restrict side,
         int32_t row = (int32_t)smaller(larger(y, 0), size);
         int32_t is_wide = across > 1;
         wide |= is_wide;
-        pixel[i] = is_inside & is_drawn & !is_wide ? row * width + column : behind + (int32_t)i;
+        is_drawn &= is_inside & !is_wide;
+        pixel[i] = is_drawn != 0 ? row * width + column : behind + (int32_t)i;
     }
     return wide != 0;
 }
