@@ -39,6 +39,10 @@ void studio_viewport_frame_all(StudioViewport *viewport);
 void studio_viewport_frame(StudioViewport *viewport, const double min[3], const double max[3]);
 /// Looks as a view of the document does.
 void studio_viewport_see(StudioViewport *viewport, const FrViewParams *view);
+/// The view as a picture of that size, in pixels: fine, without marks over it; with `is_clear` it
+/// has alpha, and only the plants are seen. Blocks until it is drawn. NULL: the graphics card
+/// cannot.
+FrImage *studio_viewport_picture(StudioViewport *viewport, int width, int height, bool is_clear);
 /// Goes by the given part of its height or by angles, as the pointer does.
 void studio_viewport_move(StudioViewport *viewport, double azimuth, double elevation, double zoom);
 /// The overlay of that name becomes this, which is the viewport's from then on; NULL: it goes.

@@ -48,3 +48,11 @@ void studio_listen_for_menu(GtkWidget *widget, GCallback pressed, void *data) {
     g_signal_connect(menu, "pressed", pressed, data);
     gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(menu));
 }
+
+void studio_close_on_escape(GtkWidget *window) {
+    GtkEventController *keys = gtk_shortcut_controller_new();
+    gtk_shortcut_controller_add_shortcut(GTK_SHORTCUT_CONTROLLER(keys),
+                                         gtk_shortcut_new(gtk_keyval_trigger_new(GDK_KEY_Escape, 0),
+                                                          gtk_named_action_new("window.close")));
+    gtk_widget_add_controller(window, keys);
+}

@@ -14,6 +14,9 @@ GtkWidget *studio_row_button(const char *icon, const char *tip);
 GtkWidget *studio_bar_button(GtkWidget *bar, const char *icon, const char *tip, GCallback clicked,
                              void *data);
 
+/// Lets Escape close a window.
+void studio_close_on_escape(GtkWidget *window);
+
 /// Listens to drags with the first button of the pointer; the callbacks are those of
 /// GtkGestureDrag.
 GtkGesture *studio_listen_to_drags(GtkWidget *widget, GCallback begin, GCallback update,

@@ -114,21 +114,7 @@ static void do_new(GSimpleAction *action, GVariant *parameter, gpointer data) {
 static void do_screenshot(GSimpleAction *action, GVariant *parameter, gpointer data) {
     (void)action;
     (void)parameter;
-    StudioWindow *window = data;
-    const char *pictures = g_get_user_special_dir(G_USER_DIRECTORY_PICTURES);
-    GDateTime *now = g_date_time_new_now_local();
-    char *stamp = g_date_time_format(now, "%Y-%m-%d %H-%M-%S");
-    char *name = g_strdup_printf("Frond %s.png", stamp);
-    char *path = g_build_filename(pictures != NULL ? pictures : g_get_home_dir(), name, NULL);
-    if (studio_picture_save(GTK_WIDGET(window->viewport), path)) {
-        studio_window_say(window, "Saved %s", path);
-    } else {
-        studio_window_say(window, "The picture could not be saved");
-    }
-    g_free(path);
-    g_free(name);
-    g_free(stamp);
-    g_date_time_unref(now);
+    studio_window_ask_picture(data);
 }
 
 // ---- edits -------------------------------------------------------------------------------------

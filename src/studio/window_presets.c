@@ -6,6 +6,7 @@
 #include "studio/model/presets.h"
 #include "studio/model/subgraph.h"
 #include "studio/preset_cards.h"
+#include "studio/widgets.h"
 #include "studio/window_private.h"
 
 #include <string.h>
@@ -295,11 +296,7 @@ static void ask_preset(StudioWindow *window, const char *on) {
     gtk_widget_insert_action_group(dialog, "win", G_ACTION_GROUP(window)); // of the cards' menus
     g_object_set_data_full(G_OBJECT(dialog), key_what, g_strdup(on), g_free);
     g_signal_connect(cards, "chosen", G_CALLBACK(on_chosen), window);
-    GtkEventController *keys = gtk_shortcut_controller_new();
-    gtk_shortcut_controller_add_shortcut(GTK_SHORTCUT_CONTROLLER(keys),
-                                         gtk_shortcut_new(gtk_keyval_trigger_new(GDK_KEY_Escape, 0),
-                                                          gtk_named_action_new("window.close")));
-    gtk_widget_add_controller(dialog, keys);
+    studio_close_on_escape(dialog);
     gtk_window_present(GTK_WINDOW(dialog));
     g_free(where);
 }

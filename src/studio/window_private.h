@@ -140,6 +140,11 @@ void studio_window_ask_pane(StudioWindow *window, StudioPane pane);
 /// Writes widths, and which panes are wanted, to the settings.
 void studio_window_remember_panes(StudioWindow *window);
 
+// window_picture.c
+
+/// Asks where the view shall be saved as a picture, and how large.
+void studio_window_ask_picture(StudioWindow *window);
+
 // window_cancel.c
 
 /// Lets Escape take back what a pressed pointer does.

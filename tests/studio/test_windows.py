@@ -5,6 +5,7 @@ import math
 import os
 import re
 import shutil
+import struct
 
 import studio_driver as driver
 from driven_run import BEGINNING, Home, PICTURES, SOURCE
@@ -64,7 +65,7 @@ class Run(Home):
     def fill(self, name, text):
         """Types a text over what is in an entry."""
         self.click(name)
-        self.keys("ctrl+a")
+        self.keys("ctrl+a", "Delete")
         self.studio.pointer("type", text)
 
     def dialog(self, name):
@@ -337,6 +338,76 @@ def test_shortcuts(run):
     run.no_dialog()
 
 
+def png(path):
+    """Width, height and kind of colours of a PNG: 2 is opaque, 6 has alpha."""
+    with open(path, "rb") as file:
+        data = file.read()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", path
+    return (*struct.unpack(">II", data[16:24]), data[25])
+
+
+def test_picture(run):
+    """the view is saved as a picture of the size that is asked for, and nothing is lost by it"""
+    studio = run.studio
+    run.open(run.file)
+
+    def path(name):
+        return os.path.join(run.home, name)
+
+    def ask():
+        run.keys("ctrl+shift+p")
+        run.dialog("Save the Picture")
+
+    ask()
+    run.picture_of_dialog("picture-asked")
+    run.keys("Escape")
+    run.no_dialog()
+    assert not os.path.exists(path("flower.png"))
+    ask()
+    run.fill("picture-width", "320")
+    run.fill("picture-height", "200")
+    run.fill("picture-name", "")
+    run.keys("Return")  # it has no name
+    run.fill("picture-name", "a/b")
+    assert studio.ask("text picture-note").startswith("A name has no slashes")
+    run.fill("picture-name", "flower")
+    assert studio.ask("text picture-save") == "_Save"
+    run.keys("Return")
+    run.no_dialog()
+    assert studio.ask("said") == "Saved " + path("flower.png"), studio.ask("said")
+    assert png(path("flower.png")) == (320, 200, 2)
+    studio.wait()
+    run.picture("picture-saved")  # the view is as large as before
+    ask()
+    run.click("Transparent")
+    run.click("picture-save")  # under the name that is proposed
+    run.no_dialog()
+    x, y, width, height = studio.where("viewport")
+    assert png(path("flower 2.png")) == (width, height, 6)
+    with open(path("flower.png"), "rb") as file:
+        before = file.read()
+    ask()
+    run.fill("picture-name", "flower.png")
+    assert studio.ask("text picture-save") == "_Replace"
+    assert studio.ask("text picture-note") == "It takes the place of the one called so"
+    run.picture_of_dialog("picture-replace")
+    run.click("Cancel")
+    run.no_dialog()
+    with open(path("flower.png"), "rb") as file:
+        assert file.read() == before
+    ask()
+    run.fill("picture-folder", path("flower.frond"))  # which is no folder
+    run.fill("picture-name", "lost")
+    run.click("picture-save")
+    assert studio.ask("dialog") == "Save the Picture"
+    assert studio.ask("text picture-note").startswith("It cannot be written: ")
+    run.picture_of_dialog("picture-unwritten")
+    run.fill("picture-folder", run.home)
+    run.click("picture-save")
+    run.no_dialog()
+    assert png(path("lost.png")) == (width, height, 2)
+
+
 def drawn(run, *touches):
     """Draws with so many touches of a pen: heights of the board meanwhile, and the points of the
     stroke that comes of it, each x, y, z and a pressure where it is not that of a mouse."""
@@ -393,7 +464,7 @@ def test_pen(run):
 
 
 TESTS = [test_views, test_views_by_keys, test_removed, test_rename_preset, test_broken_preset,
-         test_recent, test_preferences, test_shortcuts, test_pen]
+         test_recent, test_preferences, test_shortcuts, test_picture, test_pen]
 
 
 def main():

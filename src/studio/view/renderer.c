@@ -367,6 +367,9 @@ static void show(const StudioRenderer *renderer, const StudioShot *shot, const S
     studio_program_float(program, "reach", shot->reach);
     studio_program_int(program, "has_occlusion", has_occlusion);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    if (shot->display->is_bare) {
+        return;
+    }
     StudioUnder under = {.clip = shot->clip,
                          .depths = target->depth,
                          .near = shot->near,

@@ -141,5 +141,5 @@ static const char studio_show_fragment[] =
     "        }\n"
     "        c *= 1.0 - 0.34 * hidden / 9.0;\n"
     "    }\n"
-    "    colour = vec4(c, 1.0);\n"
+    "    colour = vec4(c, texture(drawn, uv).a);\n" // 1 where there is a backdrop
     "}\n";

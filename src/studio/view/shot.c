@@ -127,8 +127,13 @@ void studio_shot_begin(const StudioShot *shot, const StudioTarget *target,
                        const StudioCamera *camera) {
     studio_target_open(target);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_backdrop(shot);
-    draw_floor(shot, camera);
+    if (shot->display->is_clear) {
+        glClearColor(0, 0, 0, 0);
+        glClear(GL_COLOR_BUFFER_BIT);
+    } else {
+        draw_backdrop(shot);
+        draw_floor(shot, camera);
+    }
 }
 
 StudioOutlook studio_shot_outlook(const StudioShot *shot) {
