@@ -63,7 +63,7 @@ static const char studio_floor_fragment[] =
     "float lines(float size) {\n"
     "    vec2 p = at / size, d = fwidth(p) + 1e-6;\n"
     "    vec2 l = 1.0 - smoothstep(vec2(0.5), vec2(1.5), abs(p - round(p)) / d);\n"
-    "    float dense = clamp(1.0 - 2.0 * max(d.x, d.y), 0.0, 1.0); return max(l.x, l.y) * dense;\n"
+    "    l *= clamp(1.3 - 4.0 * d, 0.0, 1.0); return max(l.x, l.y);\n" /* else they would shimmer */
     "}\n"
     "void main() {\n"
     "    float fade = 1.0 - smoothstep(0.25, 1.0, length(at - centre) / extent);\n"
@@ -84,16 +84,18 @@ static const char studio_floor_fragment[] =
     "    colour = vec4(c, fade * 0.85);\n"
     "}\n";
 
-/// The lines of the skeleton, by order.
+/// The lines of the skeleton, by order; what is farther away is nearer to the backdrop. `haze` is
+/// where that begins, and over how much, m.
 static const char studio_line_vertex[] =
     "#version 330 core\n"
     "layout(location=0) in vec3 position; layout(location=1) in float order;\n"
-    "uniform mat4 model, clip; out vec4 shown;\n" STUDIO_SWAY "void main() {\n"
+    "uniform mat4 model, clip; uniform vec2 haze; uniform vec3 first, last, behind; out vec4 "
+    "shown;\n" STUDIO_SWAY "void main() {\n"
     "    float t = clamp(order / 4.0, 0.0, 1.0);\n"
-    "    vec3 by_order = mix(vec3(0.93, 0.78, 0.55), vec3(0.45, 0.80, 0.42), t);\n"
-    "    shown = vec4(by_order, 1.0);\n"
     "    vec4 at = model * vec4(position, 1.0);\n"
     "    gl_Position = clip * vec4(at.xyz + sway(at.xyz), 1.0);\n"
+    "    float away = clamp((gl_Position.w - haze.x) / haze.y, 0.0, 1.0);\n"
+    "    shown = vec4(mix(mix(first, last, t), behind, 0.85 * away * away), 1.0);\n"
     "}\n";
 static const char studio_line_fragment[] =
     "#version 330 core\n"

@@ -119,6 +119,18 @@ void studio_shot_draw_skeletons(StudioShot *shot) {
     GLuint program = shot->programs->line;
     glUseProgram(program);
     studio_program_matrix(program, "clip", &shot->clip);
+    // From wood to green, both to be read on the backdrop.
+    static const float dark[3][3] = {
+        {0.93f, 0.78f, 0.55f}, {0.45f, 0.80f, 0.42f}, {0.16f, 0.17f, 0.185f}};
+    static const float light[3][3] = {
+        {0.42f, 0.27f, 0.10f}, {0.12f, 0.42f, 0.12f}, {0.76f, 0.78f, 0.80f}};
+    const float(*colours)[3] = shot->display->is_dark ? dark : light;
+    studio_program_vec3(program, "first", colours[0]);
+    studio_program_vec3(program, "last", colours[1]);
+    studio_program_vec3(program, "behind", colours[2]);
+    double nearest = fmax(shot->distance - shot->radius, 0);
+    studio_program_vec2(program, "haze", (float)nearest,
+                        (float)(shot->distance + shot->radius - nearest));
     use_wind(shot, program);
     studio_store_each_skeleton(shot->store, draw_skeleton, shot);
 }
@@ -151,7 +163,8 @@ StudioShot studio_shot_new(const StudioStore *store, const StudioCamera *camera,
         radius += max[i] >= min[i] ? far * far : 1;
     }
     radius = sqrt(radius);
-    StudioShot shot = {.store = store, .display = display, .radius = radius};
+    StudioShot shot = {
+        .store = store, .display = display, .distance = camera->distance, .radius = radius};
     mat4s projection = studio_camera_projection(camera, aspect, radius);
     shot.clip = glms_mat4_mul(projection, studio_camera_view(camera));
     float a = projection.raw[2][2], b = projection.raw[3][2];

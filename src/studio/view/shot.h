@@ -30,6 +30,7 @@ typedef struct StudioShot {
     float eye[3];
     float near, far; ///< planes
     float reach;     ///< m, of what shades its surroundings
+    double distance; ///< m, of the target
     double radius;   ///< m, around the target of the camera: all is in it
 } StudioShot;
 

@@ -60,17 +60,17 @@ static const char studio_surface_vertex[] =
                                                 */                                                 \
     "uniform vec3 lamp_colour[8];\n"                                                               \
     "uniform sampler2DShadow lamp_maps; uniform mat4 to_lamp[12]; uniform vec3 lamp_map[8];\n"     \
-    "float lamp_lit(int i, vec3 way, float far) {\n"                                               \
+    "float lamp_lit(int i, vec3 way, vec3 n, float far) {\n"                                       \
     "    if (lamp_map[i].y == 0.0) return 1.0;\n"                                                  \
     "    vec3 a = abs(way); int map = int(lamp_map[i].x);\n"                                       \
     "    if (lamp_map[i].y > 1.0) {\n"                                                             \
     "        map += a.x >= max(a.y, a.z) ? (way.x < 0.0 ? 0 : 1)\n"                                \
     "               : a.y >= a.z ? (way.y < 0.0 ? 2 : 3) : (way.z < 0.0 ? 4 : 5);\n"               \
     "    }\n"                                                                                      \
-    "    vec4 p = to_lamp[map] * vec4(at + way * far * 0.006, 1.0);\n"                             \
+    "    vec4 p = to_lamp[map] * vec4(at + (0.004 * way + 0.012 * n) * far, 1.0);\n"               \
     "    vec3 s = p.xyz / max(p.w, 1e-6) * 0.5 + 0.5; vec2 cell = vec2(map % 4, map / 4);\n"       \
     "    if (any(lessThan(s.xy, vec2(0.0))) || any(greaterThan(s.xy, vec2(1.0)))) return 1.0;\n"   \
-    "    float wide = clamp(lamp_map[i].z / far, 0.003, 0.02), sum = 0.0;\n"                       \
+    "    float wide = clamp(lamp_map[i].z / far, 0.0025, 0.008), sum = 0.0;\n"                     \
     "    float turn = 6.2832 * fract(sin(dot(at, vec3(127.1, 311.7, 74.7))) * 43758.5453);\n"      \
     "    for (int k = 0; k < 4; k++) {\n"                                                          \
     "        vec2 o = vec2(cos(turn), sin(turn)) * wide * sqrt((float(k) + 0.5) / 4.0);\n"         \
@@ -147,7 +147,8 @@ static const char studio_surface_vertex[] =
     "before);\n"                                                                                   \
     "        part = edge <= -1.0 ? 1.0 : part;\n"                                                  \
     "        float near = lamp_at[i].w * lamp_at[i].w;\n"                                          \
-    "        sum += thrown(s, way, lamp_colour[i] * part * lamp_lit(i, way, sqrt(square)) / "      \
+    "        sum += thrown(s, way, lamp_colour[i] * part * lamp_lit(i, way, dot(s.n, way) < 0.0 "  \
+    "? -s.n : s.n, sqrt(square)) / "                                                               \
     "max(square, near));\n"                                                                        \
     "    }\n"                                                                                      \
     "    return sum;\n"                                                                            \
