@@ -50,9 +50,9 @@ FR_API FR_MUST_USE FrStatus fr_simulation_scene(FrSimulation *simulation, const 
 /// All that has grown, to go on with later: bud by bud as it stands, L-systems as what they have
 /// been answered. NULL with a diagnostic where nothing grows by steps. Free with g_bytes_unref().
 FR_API GBytes *fr_simulation_save(const FrSimulation *simulation, const FrContext *context);
-/// Takes up a saved state. FR_ERR_DOCUMENT with a diagnostic at `span`, and nothing changed, if the
-/// bytes are damaged, or were saved by another version of the program, from another document or
-/// with another seed.
+/// Takes up a saved state; steps before it cannot be taken back. FR_ERR_DOCUMENT with a diagnostic
+/// at `span`, and nothing changed, if the bytes are damaged, or were saved by another version of
+/// the program, from another document or with another seed.
 FR_API FR_MUST_USE FrStatus fr_simulation_restore(FrSimulation *simulation, const void *bytes,
                                                   size_t size, FrSpan span,
                                                   const FrContext *context);

@@ -130,6 +130,7 @@ FrStatus fr_simulation_restore(FrSimulation *simulation, const void *bytes, size
         GArray *steps = simulation->scene->steps;
         g_array_set_size(steps, 0);
         g_array_append_vals(steps, growing + head.growing_size, (guint)head.step_count);
+        g_ptr_array_set_size(simulation->back, 0);
         status = fr_simulation_take_up(simulation, context);
     }
     return status;

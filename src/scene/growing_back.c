@@ -43,6 +43,7 @@ void fr_growing_mark_free(FrGrowingMark *mark) {
 /// not come to that step by them.
 static bool go_to(FrGrowing *growing, FrSprout *sprout, const FrAnswers *from, const Place *place,
                   const FrContext *context) {
+    FR_ASSERT(place->words <= from->words->len);
     FrSprout made = *sprout;
     made.derivation = NULL;
     made.ahead = NULL;
