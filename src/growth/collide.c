@@ -103,15 +103,15 @@ static bool has_bit(const Asked *asked, const FrCellPlace *place) {
 static inline bool cell_blocks(const Asked *asked, const FrCellPlace *place) {
     const FrBrick *brick = place->brick;
     unsigned layer = place->layer, bit = place->bit;
-    const uint32_t *owner = &brick->owners[fr_voxels_slot(layer, bit)];
+    unsigned slot = fr_voxels_slot(layer, bit); // a brick of nothing but obstacles has no owners
     if (asked->question == IS_CLAIMED) {
         bool is_contested = (brick->contested >> fr_voxels_cube(layer, bit) & 1) != 0;
         return (is_contested || !is_own_cell(asked, place)) &&
-               comes_before(asked->growth, asked->proposal, *owner);
+               comes_before(asked->growth, asked->proposal, brick->owners[slot]);
     }
     uint32_t whose = brick->solid[layer] >> bit & 1
                          ? (brick->ground[layer] >> bit & 1 ? FR_VOXEL_GROUND : FR_VOXEL_SOLID)
-                         : *owner;
+                         : brick->owners[slot];
     return !is_related(asked->growth, asked->proposal, whose) &&
            !(whose == FR_VOXEL_SOLID && is_footing(asked->growth, asked->proposal, place->cell));
 }
