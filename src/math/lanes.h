@@ -15,8 +15,9 @@
 
 enum { FR_LANES = 8 };
 
-// clang does not let a clone for AVX call functions that are not, even those it inlines.
-#ifdef __clang__
+// clang does not let a clone for AVX call functions that are not, even those it inlines. gcc's
+// thread sanitizer is not there yet when clones are chosen, and would be called.
+#if defined __clang__ || defined __SANITIZE_THREAD__
 #define FR_LANES_CLONES
 #else
 #define FR_LANES_CLONES __attribute__((target_clones("avx2", "default")))
