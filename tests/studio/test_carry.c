@@ -258,7 +258,7 @@ static void test_names(Fixture *fixture, gconstpointer data) {
     g_assert_true(is_right(text, fixture->presets));
     g_assert_true(studio_presets_remove(fixture->presets, "three"));
     g_assert_cmpint(g_rmdir(fixture->presets), ==, 0); // nothing is in it
-    folder_within(fixture->home, "presets");
+    g_free(folder_within(fixture->home, "presets"));
     g_free(text);
     studio_document_free(document);
 }
@@ -329,7 +329,7 @@ static void test_large(Fixture *fixture, gconstpointer data) {
     g_string_free(many, TRUE);
     char *rest = g_build_filename(fixture->there, NULL);
     g_assert_cmpint(g_rmdir(rest), ==, 0);
-    folder_within(fixture->home, "there");
+    g_free(folder_within(fixture->home, "there"));
     g_free(rest);
     g_free(path);
 }
