@@ -108,6 +108,14 @@ static void said(StudioDrive *drive, char *const *words, const char *rest) {
     studio_answer("%s", text == NULL ? "nothing" : text);
 }
 
+static void let_messages_stay(StudioDrive *drive, char *const *words, const char *rest) {
+    (void)words;
+    (void)rest;
+    studio_messages_stay(drive->window->over_picture);
+    studio_messages_stay(drive->window->over_all);
+    studio_answer("ok");
+}
+
 static gboolean on_wait(gpointer data) {
     StudioDrive *drive = data;
     drive->settled = studio_window_is_idle(drive->window) ? drive->settled + 1 : 0;
@@ -294,6 +302,7 @@ static const struct {
     {"sketch", sketch, 1, false},
     {"pointed", pointed, 1, false},
     {"said", said, 1, false},
+    {"stay", let_messages_stay, 1, false},
     {"focus", studio_drive_focus, 1, false},
     {"keep", keep, 1, false},
     {"restore", restore, 1, false},

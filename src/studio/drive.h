@@ -24,6 +24,7 @@
 ///   colour X Y             answers R G B of what is shown there, as `where` counts
 ///   picture FILE           writes a PNG of the window
 ///   picture-of-dialog FILE, close-dialog    the same of the dialog above it, which goes
+///   stay                   lets messages of the window go only for others
 ///   dialog                 answers what that dialog is called; "nothing": there is none
 ///   windows, window N      answers the numbers of all windows; goes on with another one
 ///   pen down|move X Y PRESSURE TILT SECONDS, pen up    what a pen tells the board of the sketch

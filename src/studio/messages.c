@@ -7,7 +7,8 @@ enum { SAID_SECONDS = 4, UNDO_SECONDS = 8 };
 struct StudioMessages {
     AdwToastOverlay *overlay;
     AdwToast *toast; // what is said; NULL: nothing
-    guint timer;     // ends it; 0: nothing is said
+    guint timer;     // ends it; 0: nothing is said, or it stays
+    gboolean stays;
 };
 
 static void forget(StudioMessages *messages) {
@@ -43,9 +44,15 @@ void studio_messages_say(StudioMessages *messages, const char *text, bool can_un
     adw_toast_set_button_label(messages->toast, can_undo ? "_Undo" : NULL);
     adw_toast_set_action_name(messages->toast, can_undo ? "win.undo" : NULL);
     g_clear_handle_id(&messages->timer, g_source_remove);
-    messages->timer = g_timeout_add_seconds(can_undo ? UNDO_SECONDS : SAID_SECONDS,
-                                            on_said_long_enough, messages);
+    if (!messages->stays) {
+        messages->timer = g_timeout_add_seconds(can_undo ? UNDO_SECONDS : SAID_SECONDS,
+                                                on_said_long_enough, messages);
+    }
     g_free(escaped);
+}
+
+void studio_messages_stay(StudioMessages *messages) {
+    messages->stays = TRUE;
 }
 
 void studio_messages_forget_undo(StudioMessages *messages) {

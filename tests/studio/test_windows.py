@@ -29,6 +29,7 @@ class Run(Home):
     def start(self):
         self.studio = driver.Studio(self.display, self.home)
         self.studio.ask("size 1400 900")
+        self.studio.ask("stay")  # else a busy machine would not read them in time
 
     def settings(self):
         """What the studio has kept; it writes that when a window goes."""
