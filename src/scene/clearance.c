@@ -5,7 +5,6 @@
 
 #include "growth/obstacles.h"
 #include "scene/solids.h"
-#include "space/stems.h"
 
 #include <math.h>
 #include <string.h>
@@ -96,8 +95,7 @@ static void stand_point(const FrStand *stand, vec3s at, double world[3]) {
     world[2] = stand->at[2] + (double)at.z * stand->scale;
 }
 
-/// The internodes of a plant where it stands; returns how many are seen.
-static uint32_t find_stems(const FrPlant *plant, const FrStand *stand, FrStem *stems) {
+uint32_t fr_clearance_stems(const FrPlant *plant, const FrStand *stand, FrStem *stems) {
     const uint16_t unseen = FR_SHED | FR_HIDDEN;
     const FrNodes *nodes = &plant->nodes;
     uint32_t count = 0;
@@ -134,7 +132,7 @@ FrStatus fr_clearance_update(FrClearance *room, const FrScene *scene, const FrCo
             return status;
         }
         FrStem *stems = g_new(FrStem, count + 1);
-        uint32_t seen = plant == NULL ? 0 : find_stems(plant, stand, stems);
+        uint32_t seen = plant == NULL ? 0 : fr_clearance_stems(plant, stand, stems);
         room->moving[stand->plant] = fr_stems_new(stems, seen);
         g_free(stems);
     }

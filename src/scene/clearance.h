@@ -5,6 +5,7 @@
 
 #include "frond/scene.h"
 #include "frond/terrain.h"
+#include "space/stems.h"
 
 /// Farther than that nothing stands, m.
 #define FR_CLEARANCE_FREE 1e6
@@ -25,3 +26,6 @@ double fr_clearance_around(const FrClearance *room, const double at[3], uint32_t
 /// How far it is free along a unit vector, to a millimetre.
 double fr_clearance_ahead(const FrClearance *room, const double at[3], const double along[3],
                           uint32_t own);
+/// The internodes of a plant where it stands, those that are seen; returns how many. `stems` has
+/// room for as many as the plant has nodes.
+uint32_t fr_clearance_stems(const FrPlant *plant, const FrStand *stand, FrStem *stems);

@@ -4,6 +4,7 @@
 
 #include "scene/habitat.h"
 #include "scene/particles.h"
+#include "scene/reaching.h"
 #include "scene/sunken.h"
 
 #include <string.h>
@@ -410,6 +411,19 @@ FrStatus fr_ecosystem_draw(const FrEcosystem *ecosystem, FrScene *scene, const F
         stand_apart(ecosystem, scene);
     }
     return status;
+}
+
+void fr_ecosystem_tell_grown(const FrEcosystem *ecosystem, const FrScene *scene,
+                             const FrContext *context) {
+    Told told = listen(context);
+    const FrSeeds seeds = {
+        .at = (const FrSeed *)(const void *)ecosystem->seeds->data,
+        .plants = (const uint32_t *)(const void *)ecosystem->plants->data,
+        .count = ecosystem->seeds->len,
+        .definitions = ecosystem->definitions,
+    };
+    fr_reaching_tell(scene, &seeds, &told.context);
+    tell(&told, ecosystem->document);
 }
 
 FrDigest fr_ecosystem_digest(const FrEcosystem *ecosystem) {

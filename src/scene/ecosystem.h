@@ -32,6 +32,9 @@ FR_MUST_USE FrStatus fr_ecosystem_renew(FrEcosystem *ecosystem, const FrScene *s
 /// The plants as they are now; `old` receives those that were there before.
 FR_MUST_USE FrStatus fr_ecosystem_draw(const FrEcosystem *ecosystem, FrScene *scene,
                                        const FrContext *context, GPtrArray *old);
+/// Tells wood that reaches into obstacles; the plants are drawn.
+void fr_ecosystem_tell_grown(const FrEcosystem *ecosystem, const FrScene *scene,
+                             const FrContext *context);
 /// Sets those of the scene's plants that grow bud by bud.
 void fr_ecosystem_mark(const FrEcosystem *ecosystem, uint8_t *is_growing);
 /// NULL before it has begun.

@@ -175,6 +175,9 @@ FrStatus fr_simulation_run(FrSimulation *simulation, const FrSceneOptions *optio
     if (status == FR_OK) {
         status = draw(simulation, context, old);
     }
+    if (status == FR_OK && fr_simulation_is_growing(simulation)) {
+        fr_ecosystem_tell_grown(simulation->ecosystem, simulation->scene, context);
+    }
     if (status == FR_OK) {
         status = fr_growing_finish(simulation->growing, simulation->scene, context);
     }
