@@ -40,10 +40,12 @@ enum {
     FR_POINT_SETS = 1 << 4, ///< axis: rings of its profile exactly at its base and nodes
     FR_FORK = 1 << 5,       ///< axis: arm of a fork: begins at its bearer's tip, out of its whole
                             ///< thickness, while the bearer's axis goes on to another side
+    FR_PART = 1 << 6,       ///< node: a straight part of an internode that is bent, and not its
+                            ///< last; nothing is borne by it
 };
 
-/// Internodes. Node i runs from the tip of its parent (for the first node of an axis: from the
-/// axis' origin) to its own tip.
+/// Internodes, or straight parts of bent ones (FR_PART). Node i runs from the tip of its parent
+/// (for the first node of an axis: from the axis' origin) to its own tip.
 typedef struct FrNodes {
     uint32_t count, capacity;
     uint32_t *parent;  ///< node it grows from; the bearer for the first of an axis; FR_NONE
@@ -54,7 +56,7 @@ typedef struct FrNodes {
     float *radius;     ///< m, at the tip
     float *flatness;   ///< second radius (along y) over the first (along x); 1 is round
     uint16_t *birth;   ///< step or frame of birth
-    uint16_t *flags;   ///< FR_SHED, FR_HIDDEN
+    uint16_t *flags;   ///< FR_SHED, FR_HIDDEN, FR_PART
     vec3s *position;   ///< cache: tip, in the plant's coordinates
     versors *frame;    ///< cache: rotation from the internode's frame to the plant's
 } FrNodes;
@@ -375,6 +377,8 @@ FR_API void fr_plant_weigh(FrPlant *plant, FrWeights weights, double thinnest, d
 /// Removes what is marked FR_SHED and everything borne by it: with an internode go the rest of its
 /// axis and its branches, organs and buds. The order of what stays is kept.
 FR_API void fr_plant_compact(FrPlant *plant);
+/// How many internodes it has: nodes that are no FR_PART.
+FR_API uint32_t fr_plant_internodes(const FrPlant *plant);
 /// Smallest box around node tips, axis origins and organ positions (not their shapes) of what is
 /// neither shed nor hidden. min > max for an empty plant. Reads the cache.
 FR_API void fr_plant_bounds(const FrPlant *plant, vec3s *min, vec3s *max);

@@ -26,7 +26,8 @@ static Measures measure(const FrScene *scene, guint index) {
 
 static void print(const Measures *of) {
     const FrPlant *plant = of->plant;
-    char *nodes = cli_count_text(plant->nodes.count), *axes = cli_count_text(plant->axes.count);
+    char *nodes = cli_count_text(fr_plant_internodes(plant)),
+         *axes = cli_count_text(plant->axes.count);
     char *organs = cli_count_text(plant->organs.count);
     printf(
         "%s at %g, %g, %g: %s internodes of %s branches, %s leaves and other organs, %.3g m high, "
@@ -41,8 +42,8 @@ static void print(const Measures *of) {
 static json_t *to_json(const Measures *of) {
     const double *at = of->stand->at;
     return json_pack("{s:s, s:[f, f, f], s:I, s:I, s:I, s:f, s:f}", "plant", of->plant->name, "at",
-                     at[0], at[1], at[2], "nodes", (json_int_t)of->plant->nodes.count, "axes",
-                     (json_int_t)of->plant->axes.count, "organs",
+                     at[0], at[1], at[2], "nodes", (json_int_t)fr_plant_internodes(of->plant),
+                     "axes", (json_int_t)of->plant->axes.count, "organs",
                      (json_int_t)of->plant->organs.count, "height", of->height, "width", of->width);
 }
 

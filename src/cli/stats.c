@@ -32,7 +32,7 @@ static Totals count_scene(const FrScene *scene) {
         totals.instances += built->instances;
         totals.modules += built->modules;
         totals.axes += plant->axes.count;
-        totals.nodes += plant->nodes.count;
+        totals.nodes += fr_plant_internodes(plant);
         totals.organs += plant->organs.count;
         cli_count_made(built->modules > 0 ? totals.by_production : totals.by_component, plant,
                        built->by_component);

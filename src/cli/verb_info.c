@@ -186,7 +186,7 @@ static void print_plant(const Grown *grown) {
     bool is_lsystem = grown->definition->kind == FR_PLANT_LSYSTEM;
     char *made = cli_count_text(is_lsystem ? grown->modules : grown->counts.instances);
     char *axes = cli_count_text(grown->plant->axes.count);
-    char *nodes = cli_count_text(grown->plant->nodes.count);
+    char *nodes = cli_count_text(fr_plant_internodes(grown->plant));
     char *organs = cli_count_text(grown->plant->organs.count);
     printf("plant %s, seed %" G_GUINT64_FORMAT ": %s %s, %s axes, %s nodes, %s organs of "
            "%u shapes, digest %016" G_GINT64_MODIFIER "x\n",
@@ -234,7 +234,7 @@ static json_t *plant_json(const Grown *grown) {
     json_t *plant = json_pack(
         "{s:s, s:I, s:s, s:I, s:I, s:I, s:I}", "id", grown->definition->id, "seed",
         (json_int_t)grown->seed, "digest", digest, "axes", (json_int_t)grown->plant->axes.count,
-        "nodes", (json_int_t)grown->plant->nodes.count, "organs",
+        "nodes", (json_int_t)fr_plant_internodes(grown->plant), "organs",
         (json_int_t)grown->plant->organs.count, "shapes", (json_int_t)grown->plant->shapes->len);
     if (grown->definition->kind == FR_PLANT_LSYSTEM) {
         json_object_set_new(plant, "modules", json_integer((json_int_t)grown->modules));
@@ -272,7 +272,7 @@ static FrStatus describe_varied(CliSession *session, const FrDocument *document,
                               json_pack("{s:s, s:s, s:I, s:s, s:I, s:I, s:I}", "id", definition->id,
                                         "base", base, "seed", (json_int_t)scene->seed, "digest",
                                         digest, "axes", (json_int_t)plant->axes.count, "nodes",
-                                        (json_int_t)plant->nodes.count, "organs",
+                                        (json_int_t)fr_plant_internodes(plant), "organs",
                                         (json_int_t)plant->organs.count));
     } else {
         printf("plant %s, seed %" G_GUINT64_FORMAT ": %s varied, digest %s\n", definition->id,

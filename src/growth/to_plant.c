@@ -70,6 +70,7 @@ static void add_internode(FrMaking *making, const FrTangents *tangents, uint32_t
         parent =
             add_part(making, axis, parent, drawn.at[part - 1], drawn.at[part], drawn.radius[part]);
         plant->nodes.birth[parent] = nodes->birth[i];
+        plant->nodes.flags[parent] |= part < drawn.count ? FR_PART : 0;
     }
     making->node_of[i] = parent;
 }

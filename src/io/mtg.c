@@ -139,7 +139,7 @@ static bool add_node(void *user, const FrTopologyStep *step) {
     fr_output_integer(own->output, ++own->nodes);
     add_tabs(own->output, own->mtg->columns - column);
     add_component(own->output, plant, plant->axes.component[plant->nodes.axis[node]]);
-    add_features(own->output, (double)plant->nodes.length[node] * own->stand->scale,
+    add_features(own->output, fr_topology_length(own->topology, step) * own->stand->scale,
                  (double)plant->nodes.radius[node] * own->stand->scale, &own->pose,
                  plant->nodes.position[node]);
     uint32_t organ = own->topology->first_organ[node];

@@ -4,7 +4,8 @@
 //
 // `decomp` is what an entity is made of, `follow` what goes on from it, `branch` what it bears. An
 // internode is a cylinder of diameter 1 along x, scaled to its length and tapered between the
-// diameters at its base (`dDwn`) and tip (`dUp`).
+// diameters at its base (`dDwn`) and tip (`dUp`). One that is bent has no mesh of its own: it is
+// made of straight segments, one scale finer, each with such a cylinder.
 #include "io/opf.h"
 #include "io/formats.h"
 
@@ -125,15 +126,13 @@ static void add_organs(FrOpf *opf, uint32_t first) {
     }
 }
 
-static void add_internode(FrOpf *opf, uint32_t node) {
+/// The cylinder of an internode, or of a straight part of one.
+static void add_cylinder(FrOpf *opf, uint32_t node) {
     const FrPlant *plant = opf->plant->topology.plant;
     uint32_t axis = plant->nodes.axis[node], parent = plant->nodes.parent[node];
     bool is_first = plant->axes.first[axis] == node;
     float base = is_first ? plant->axes.base_radius[axis] : plant->nodes.radius[parent];
     double scale = opf->stand->scale, length = (double)plant->nodes.length[node] * scale;
-    add_component(opf, plant->axes.component[axis]);
-    add_number(opf, "Length", length);
-    add_number(opf, "Diameter", 2 * (double)plant->nodes.radius[node] * scale);
     vec3s own[3];
     columns_of(plant->nodes.frame[node], own);
     vec3s from = glms_vec3_sub(plant->nodes.position[node],
@@ -145,13 +144,34 @@ static void add_internode(FrOpf *opf, uint32_t node) {
                  2 * (double)plant->nodes.radius[node] * scale * cm);
 }
 
+/// A bent internode is made of segments.
+static void add_internode(FrOpf *opf, const FrTopologyStep *step) {
+    const FrPlant *plant = opf->plant->topology.plant;
+    double scale = opf->stand->scale;
+    add_component(opf, plant->axes.component[plant->nodes.axis[step->node]]);
+    add_number(opf, "Length", fr_topology_length(&opf->plant->topology, step) * scale);
+    add_number(opf, "Diameter", 2 * (double)plant->nodes.radius[step->node] * scale);
+    if (step->first == step->node) {
+        add_cylinder(opf, step->node);
+        return;
+    }
+    for (uint32_t part = step->first;; part = plant->nodes.next[part]) {
+        open_entity(opf, "decomp", "Segment", 4);
+        add_cylinder(opf, part);
+        close_entity(opf, "decomp");
+        if (part == step->node) {
+            return;
+        }
+    }
+}
+
 static bool enter(void *user, const FrTopologyStep *step) {
     FrOpf *opf = user;
     if (step->axis != FR_NONE) {
         open_entity(opf, step->order == 0 ? "decomp" : "branch", "Axis", 2);
     }
     open_entity(opf, step->axis != FR_NONE ? "decomp" : "follow", "Internode", 3);
-    add_internode(opf, step->node);
+    add_internode(opf, step);
     fr_output_text(&opf->output, "\n");
     add_organs(opf, opf->plant->topology.first_organ[step->node]);
     return opf->output.error == 0;

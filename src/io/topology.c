@@ -81,18 +81,42 @@ typedef struct FrTopologyTask {
     bool is_left;
 } FrTopologyTask;
 
+/// The step to the internode that begins with a node: what is bent ends with its last part.
+static FrTopologyStep step_to(const FrTopology *topology, uint32_t first, uint32_t axis,
+                              uint32_t order) {
+    const FrNodes *nodes = &topology->plant->nodes;
+    FrTopologyStep step = {first, first, axis, order};
+    while ((nodes->flags[step.node] & FR_PART) != 0 && nodes->next[step.node] != FR_NONE &&
+           (nodes->flags[nodes->next[step.node]] & FR_SHED) == 0 &&
+           topology->first_axis[step.node] == FR_NONE &&
+           topology->first_organ[step.node] == FR_NONE) {
+        step.node = nodes->next[step.node];
+    }
+    return step;
+}
+
+double fr_topology_length(const FrTopology *topology, const FrTopologyStep *step) {
+    const FrNodes *nodes = &topology->plant->nodes;
+    double length = (double)nodes->length[step->first];
+    for (uint32_t part = step->first; part != step->node;) {
+        part = nodes->next[part];
+        length += (double)nodes->length[part];
+    }
+    return length;
+}
+
 /// Puts the branches of an internode, the first on top, above what goes on from it.
 static void add_tasks(const FrTopology *topology, const FrTopologyStep *step, GArray *tasks) {
     uint32_t next = fr_topology_next(topology, step->node);
     if (next != FR_NONE) {
-        FrTopologyTask on = {{next, FR_NONE, step->order}, false};
+        FrTopologyTask on = {step_to(topology, next, FR_NONE, step->order), false};
         g_array_append_val(tasks, on);
     }
     guint low = tasks->len;
     for (uint32_t axis = topology->first_axis[step->node]; axis != FR_NONE;
          axis = topology->next_axis[axis]) {
         uint32_t first = topology->plant->axes.first[axis];
-        FrTopologyTask branch = {{first, axis, step->order + 1}, false};
+        FrTopologyTask branch = {step_to(topology, first, axis, step->order + 1), false};
         if (first != next) {
             g_array_append_val(tasks, branch);
         }
@@ -110,7 +134,7 @@ void fr_topology_walk(const FrTopology *topology, uint32_t stem,
                       bool (*enter)(void *user, const FrTopologyStep *step),
                       void (*leave)(void *user, const FrTopologyStep *step), void *user) {
     GArray *tasks = g_array_new(FALSE, FALSE, sizeof(FrTopologyTask));
-    FrTopologyTask first = {{topology->plant->axes.first[stem], stem, 0}, false};
+    FrTopologyTask first = {step_to(topology, topology->plant->axes.first[stem], stem, 0), false};
     g_array_append_val(tasks, first);
     bool goes_on = true;
     while (tasks->len > 0 && goes_on) {

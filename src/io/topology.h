@@ -23,10 +23,14 @@ uint32_t fr_topology_next(const FrTopology *topology, uint32_t node);
 
 /// An internode as a walk comes to it.
 typedef struct FrTopologyStep {
-    uint32_t node;
+    uint32_t first; ///< node that it begins with: its first straight part, if it is bent
+    uint32_t node;  ///< node that it ends with
     uint32_t axis;  ///< that begins with it; FR_NONE: it goes on from the internode before
     uint32_t order; ///< 0 for stems, 1 for their branches, …
 } FrTopologyStep;
+
+/// How long an internode is along its parts, m.
+double fr_topology_length(const FrTopology *topology, const FrTopologyStep *step);
 
 /// Walks all internodes of a stem: each, then all of its branches, then what goes on from it.
 /// `leave` (may be NULL) comes when all that hangs on it is done. Stops when `enter` says false.

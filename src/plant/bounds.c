@@ -1,7 +1,15 @@
-// The smallest box around a plant's skeleton.
+// The size of a plant's skeleton: the smallest box around it, how many internodes it has.
 #include "frond/plant.h"
 
 #include <math.h>
+
+uint32_t fr_plant_internodes(const FrPlant *plant) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < plant->nodes.count; i++) {
+        count += (plant->nodes.flags[i] & FR_PART) == 0;
+    }
+    return count;
+}
 
 void fr_plant_bounds(const FrPlant *plant, vec3s *min, vec3s *max) {
     const uint16_t unseen = FR_SHED | FR_HIDDEN;

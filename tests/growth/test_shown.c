@@ -30,6 +30,27 @@ static void test_buds(void) {
     world_clear(&world);
 }
 
+/// What bends is drawn in parts; its internodes are still those that have grown.
+static void test_internodes(void) {
+    World world;
+    init(&world);
+    FrGrowthStats stats = world_step(&world, 8);
+    uint64_t internodes = 0, parts = 0;
+    for (uint32_t i = 0; i < 2; i++) {
+        FrPlant *plant = world_plant(&world, i);
+        internodes += fr_plant_internodes(plant);
+        parts += plant->nodes.count;
+        for (uint32_t k = 0; k < plant->nodes.count; k++) {
+            bool is_part = (plant->nodes.flags[k] & FR_PART) != 0;
+            g_assert_true(!is_part || plant->nodes.next[k] == k + 1);
+        }
+        fr_plant_free(plant);
+    }
+    g_assert_cmpuint(internodes, ==, stats.nodes);
+    g_assert_cmpuint(parts, >, internodes);
+    world_clear(&world);
+}
+
 static void test_cells(void) {
     World world;
     init(&world);
@@ -72,6 +93,9 @@ static void test_cells(void) {
 
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func(
+        "/growth/shown/a plant has the internodes that have grown, in however many parts",
+        test_internodes);
     g_test_add_func("/growth/shown/all buds are told, as many as grow and sleep", test_buds);
     g_test_add_func("/growth/shown/cells are those that are taken, and cubes hold all of them",
                     test_cells);

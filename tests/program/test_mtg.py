@@ -1,5 +1,6 @@
 """A reader of MTG files, written after the format's definition, finds the plants in ours."""
 
+import json
 import math
 import sys
 
@@ -18,7 +19,7 @@ def read(path):
     title = lines.index("MTG:") + 1
     names = lines[title].split()[1:]
     columns = lines[title].split("\t").index(names[0])
-    entities, last = [], {}  # the last internode or plant of each column
+    entities, last, plant = [], {}, 0  # the last internode or plant of each column
     for line in lines[title + 1:]:
         cells = line.split("\t")
         column = next(i for i, cell in enumerate(cells) if cell)
@@ -32,6 +33,8 @@ def read(path):
         parts = label.lstrip("^/<+").split("/")
         entity = {"class": parts[-1][0], "relation": relation, "bearer": bearer, "axis": len(parts) == 2,
                   "at": [float(values[k]) for k in ("XX", "YY", "ZZ")], **values}
+        plant += entity["class"] == "P"
+        entity["plant"] = plant
         entities.append(entity)
         last[column] = entity
         for deeper in [c for c in last if c > column]:
@@ -113,6 +116,30 @@ def comes_back_as_lines(folder):
     assert len(missing) < len(drawn) / 200, len(missing)  # those that rounding parts
 
 
+def bent_internodes_are_one(folder):
+    """Axes drawn as splines have the internodes that have grown, at least as long as their chords."""
+    document = folder / "tree.frond"
+    document.write_text("""<frond version="1">
+  <plant id="tree"><species model="open" step="0.4"/></plant>
+  <scene><growth steps="12" min="-8,-8,0" max="8,8,12"/>
+    <place plant="tree" at="0,0,0"/><place plant="tree" at="2,0,0"/></scene>
+</frond>
+""")
+    path = folder / "tree.mtg"
+    stats = tap.statistics(document, "-o", path)
+    internodes = of_class(read(path), "I")
+    assert len(internodes) == stats["nodes"] == stats["per_step"][-1]["nodes"], (len(internodes), stats)
+    spare = [float(i["Length"]) - math.dist(i["at"], i["bearer"]["at"]) for i in internodes
+             if i["relation"] == "<"]
+    assert min(spare) > -1e-4 and max(spare) > 1e-4, (min(spare), max(spare))
+    whole = tap.statistics(document, "--set", "tree.species.smooth=no")
+    assert whole["nodes"] == stats["nodes"], (whole, stats)
+    done = tap.run("info", document, "--only", "place-1", "--json")
+    one = json.loads(done.stdout)["stands"][0]["nodes"]
+    first = sum(1 for i in internodes if i["plant"] == 1)
+    assert one == first > 4, (one, first)
+
+
 def lines_make_a_document(folder):
     (folder / "scan.txt").write_text("0 0 0  0 0 1  0.1\n0 0 1  0 1 2  0.05\n")
     tap.run("convert", folder / "scan.txt", folder / "scan.frond")
@@ -127,6 +154,7 @@ TESTS = [(f"/mtg/{example.stem} has all its internodes and organs", counts_agree
          ("figure2", "sunflower", "chestnut", "sheet-multipliers", "shore-trees")]
 TESTS += [
     ("/mtg/internodes are as long as their tips are apart", lengths_are_distances),
+    ("/mtg/an internode that bends is one", bent_internodes_are_one),
     ("/mtg/figure 2 has its three chains of three", branches_as_published),
     ("/mtg/each place is a plant of its own", stands_are_plants),
     ("/mtg/a plant comes back from its graph as lines", comes_back_as_lines),

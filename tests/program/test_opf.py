@@ -105,12 +105,37 @@ def leaves_are_where_models_have_them(folder):
             assert abs(bound(p[axis] for p in placed) - bound(p[axis] for p in points)) < 1e-4
 
 
+def bent_internodes_are_segments(folder):
+    """Of the same number and length as in the graph; each segment goes on where one ended."""
+    document = folder / "tree.frond"
+    document.write_text("""<frond version="1">
+  <plant id="tree"><species model="open" step="0.4"/></plant>
+  <scene><growth steps="12" min="-8,-8,0" max="8,8,12"/><place plant="tree" at="0,0,0"/>
+    <place plant="tree" at="2,0,0"/></scene>
+</frond>
+""")
+    wanted = mtg_of(document, folder)
+    root, _ = opf_of(document, folder)
+    internodes = of_class(root, "Internode")
+    assert len(internodes) == len(wanted)
+    bent = 0
+    for element, (_, tip, length, _) in zip(internodes, wanted):
+        parts = [e for e in element.findall("decomp") if e.get("class") == "Segment"] or [element]
+        places = [matrix(e) for e in parts]
+        bent += len(parts) > 1
+        assert math.dist(places[-1]((1, 0, 0)), tip) < 2e-5
+        assert all(math.dist(a((1, 0, 0)), b((0, 0, 0))) < 2e-5 for a, b in zip(places, places[1:]))
+        assert abs(sum(math.dist(p((0, 0, 0)), p((1, 0, 0))) for p in places) - length) < 5e-5
+    assert bent > 10, bent
+
+
 EXAMPLES = {name: tap.SOURCE / "examples" / f"{name}.frond"
             for name in ("figure2", "sunflower", "sheet-multipliers", "shore-trees")}
 TESTS = [(f"/opf/{name} has the internodes of its graph", same_internodes(path))
          for name, path in EXAMPLES.items()]
 TESTS += [(f"/opf/{name} names meshes and materials that it has", references_are_there(path))
           for name, path in EXAMPLES.items()]
+TESTS.append(("/opf/an internode that bends is made of segments", bent_internodes_are_segments))
 TESTS.append(("/opf/leaves stand where a model has them", leaves_are_where_models_have_them))
 
 if __name__ == "__main__":
