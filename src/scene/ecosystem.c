@@ -2,6 +2,7 @@
 /// that to plants of the scene.
 #include "scene/ecosystem.h"
 
+#include "scene/floating.h"
 #include "scene/habitat.h"
 #include "scene/particles.h"
 #include "scene/reaching.h"
@@ -238,12 +239,17 @@ static FrStatus make_growth(FrEcosystem *ecosystem, FrHabitat *habitat, const Fr
     return status;
 }
 
-/// What is wrong with the surroundings of seeds from the `first` on.
+/// Which seeds from the `first` on lie too deep in the ground, or stand on nothing: on none of the
+/// obstacles of `setup` either, NULL where not all are known.
 static void tell_ground(const FrEcosystem *ecosystem, uint32_t first, const FrScene *scene,
-                        const FrHills *hills, const FrContext *context) {
-    const FrSeed *seeds = (const FrSeed *)(const void *)ecosystem->seeds->data;
-    fr_sunken_tell(seeds + first, ecosystem->seeds->len - first, ecosystem->definitions, scene,
-                   hills, context);
+                        const FrHills *hills, const FrGrowthSetup *setup,
+                        const FrContext *context) {
+    const FrSeed *seeds = (const FrSeed *)(const void *)ecosystem->seeds->data + first;
+    uint32_t count = ecosystem->seeds->len - first;
+    fr_sunken_tell(seeds, count, ecosystem->definitions, scene, hills, context);
+    if (setup != NULL) {
+        fr_floating_tell(seeds, count, ecosystem->definitions, scene, hills, setup, context);
+    }
 }
 
 static FrStatus begin(FrEcosystem *ecosystem, const FrScene *scene, const FrHills *hills,
@@ -259,11 +265,13 @@ static FrStatus begin(FrEcosystem *ecosystem, const FrScene *scene, const FrHill
         previous == NULL ? 0 : fr_document_growth(previous->document)->particles->len;
     status = make_growth(ecosystem, &habitat, context);
     ecosystem->world = fr_solids_digest(&habitat.solids);
+    uint32_t old = status == FR_OK ? fr_growth_plant_count(ecosystem->growth) : 0;
+    if (status == FR_OK) {
+        tell_ground(ecosystem, old, scene, hills, fr_habitat_setup(&habitat), context);
+    }
     keep_species(ecosystem, &habitat);
     if (status == FR_OK) {
-        uint32_t old = fr_growth_plant_count(ecosystem->growth);
         const FrSeed *seeds = (const FrSeed *)(const void *)ecosystem->seeds->data;
-        tell_ground(ecosystem, old, scene, hills, context);
         status = fr_growth_add_seeds(ecosystem->growth, seeds + old, ecosystem->seeds->len - old,
                                      context);
     }
@@ -295,7 +303,10 @@ FrStatus fr_ecosystem_check(const FrEcosystem *ecosystem, const FrScene *scene,
     FrStatus status = fr_habitat_add_surroundings(&habitat, scene, hills, context);
     Told told = listen(context);
     if (status == FR_OK) {
-        tell_ground(ecosystem, 0, scene, hills, &told.context);
+        // Other plants, which seeds may stand on, are not made here.
+        bool is_all = fr_scene_stand_count(scene) == ecosystem->seeds->len;
+        tell_ground(ecosystem, 0, scene, hills, is_all ? fr_habitat_setup(&habitat) : NULL,
+                    &told.context);
         status = fr_growth_check(fr_habitat_setup(&habitat),
                                  (const FrSeed *)(const void *)ecosystem->seeds->data,
                                  ecosystem->seeds->len, &told.context);

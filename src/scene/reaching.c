@@ -4,6 +4,7 @@
 /// does not reach into it.
 #include "scene/reaching.h"
 
+#include "base/span.h"
 #include "frond/distance.h"
 #include "scene/clearance.h"
 #include "scene/solids.h"
@@ -175,17 +176,12 @@ static void clear_walls(Walls *walls) {
     g_free(walls->at);
 }
 
-static bool is_of(const Reaching *reaching, const FrSeed *seed) {
-    return reaching->seeds > 0 && reaching->span.source == seed->span.source &&
-           reaching->span.begin == seed->span.begin;
-}
-
 static void tell_all(const FrScene *scene, const Walls *walls, const FrSeeds *seeds,
                      const FrContext *context) {
     Reaching reaching = {0};
     for (uint32_t i = 0; i < seeds->count; i++) {
         const FrSeed *seed = &seeds->at[i];
-        if (!is_of(&reaching, seed)) {
+        if (reaching.seeds == 0 || !fr_span_is_same(seed->span, reaching.span)) {
             tell(&reaching, context);
             reaching = (Reaching){.span = seed->span};
         }

@@ -281,7 +281,7 @@ def low_room(folder):
     def told(at, more="", species=""):
         document.write_text(f"""<frond version="1">
   <plant id="tree"><species model="open" step="0.4"{species}/></plant>
-  <scene>
+  <scene ground="no">
     <growth steps="4" min="-4, -4, -1" max="4, 4, 4" cell="0.05"/>
     {more}
     <place plant="tree" at="{at}"/>
@@ -349,8 +349,44 @@ def sunken(folder):
 """)
     for command in ("build", "check"):
         said = tap.run(command, document).stderr
-        assert said.count("[seed-depth]") == 1 and "sunken.frond:6:6: warning: 1 of 2" in said, said
+        assert said.count("[seed-depth]") == 1 and "sunken.frond:6:6: warning: 1 of 1" in said, said
+        assert "do not come out of it" in said, said
         assert tap.run(command, document, "--set", "scene.ground=no").stderr == ""
+
+
+def floating(folder):
+    """A seed that stands on nothing is told; on the ground, an obstacle or a wall, as a climber, or without any
+    ground it is not."""
+    document = folder / "floating.frond"
+
+    def told(at, more="", species="", scene=""):
+        document.write_text(f"""<frond version="1">
+  <plant id="tree"><species step="0.4"{species}/></plant>
+  <scene{scene}>
+    <growth steps="1" min="-4, -4, -1" max="4, 4, 8" cell="0.05"/>
+    <obstacle size="1, 1, 1"/>{more}
+    <place plant="tree" at="{at}"/>
+  </scene>
+</frond>
+""")
+        said = [tap.run(verb, document).stderr for verb in ("check", "build")]
+        assert said[0] == said[1], said
+        assert not said[0] or "floating.frond:6:6: warning: 1 of 1 seeds stand in the air" in said[0], said
+        return "[seed-height]" in said[0]
+
+    assert told("3, 0, 2")
+    assert told("0, 0, 2") and not told("0, 0, 1.1")
+    assert not told("3, 0, 0.3") and not told("0.6, 0, 0.8")
+    assert not told("3, 0, 2", species=' climb="0.5"') and not told("3, 0, 2", scene=' ground="no"')
+    assert not told("3, 0, 2", '<obstacle at="3, 0, 1" size="1, 1, 1"/>')
+    (folder / "hill.stl").write_text("solid\n" + "".join(
+        "facet normal 0 0 1\nouter loop\nvertex -9 -9 1\n" + f"vertex {a} 1\nvertex {b} 1\nendloop\nendfacet\n"
+        for a, b in (("9 -9", "9 9"), ("9 9", "-9 9"))) + "endsolid\n")
+    hill = '<terrain file="hill.stl" size="1, 1, 1"/>'
+    assert told("3, 0, 1", hill) and not told("3, 0, 0", hill)
+    for example in sorted((tap.SOURCE / "examples").glob("*.frond")):
+        if "<species" in example.read_text(encoding="utf-8"):
+            assert "seed-height" not in tap.run("check", example).stderr, example
 
 
 def too_wide(folder):
@@ -412,6 +448,7 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
          ("/program/growth/seeds that cannot grow are told at their places", told_at_places),
          ("/program/growth/what stands on an obstacle grows", on_obstacles),
          ("/program/growth/seeds that the ground holds are told", sunken),
+         ("/program/growth/seeds that stand on nothing are told", floating),
          ("/program/growth/obstacles that are not closed are told", open_obstacles),
          ("/program/growth/so are those beside L-systems and forms without an outside", open_for_others),
          ("/program/growth/seeds below something are told", low_room),
