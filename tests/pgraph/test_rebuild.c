@@ -24,8 +24,14 @@ static FrPgraphBuild *rebuild(const FrPgraph *graph, const FrPgraphBuild *last) 
     FrContext context = fr_context_default();
     FrPgraphBuild *build;
     FrPlant *fresh;
+    FrPgraphCounts counts = {0};
     g_assert_cmpint(fr_pgraph_rebuild(graph, last, &context, &build), ==, FR_OK);
-    g_assert_cmpint(fr_pgraph_build(graph, &context, &fresh, NULL), ==, FR_OK);
+    g_assert_cmpint(fr_pgraph_build(graph, &context, &fresh, &counts), ==, FR_OK);
+    for (uint32_t c = 0; c < fr_pgraph_count(graph); c++) {
+        g_assert_cmpuint(fr_pgraph_build_counts(build)->by_component[c], ==,
+                         counts.by_component[c]);
+    }
+    fr_pgraph_counts_clear(&counts);
     assert_sound(fr_pgraph_build_plant(build));
     g_assert_cmphex(fr_plant_digest(fr_pgraph_build_plant(build)), ==, fr_plant_digest(fresh));
     fr_plant_free(fresh);
@@ -260,6 +266,28 @@ static void test_threads(void) {
     fr_pgraph_free(graph);
 }
 
+static void test_lone(void) {
+    enum { MORE = 64 }; // what lies behind a short array of counts is not always zero
+    FrPgraph *graph = graph_read("camera root\nhorn stem\nroot - stem");
+    FrPgraphBuild *last = rebuild(graph, NULL);
+    for (int k = 0; k < MORE; k++) {
+        char *line = g_strdup_printf("leaf lone%d", k);
+        graph_read_line(graph, line);
+        g_free(line);
+        FrPgraphBuild *build = rebuild(graph, last);
+        g_assert_true(fr_pgraph_build_shares(build, last));
+        fr_pgraph_build_free(last);
+        last = build;
+    }
+    FrPgraph *few = graph_read("camera root\nhorn stem\nroot - stem");
+    FrPgraphBuild *build = rebuild(few, last);
+    g_assert_true(fr_pgraph_build_shares(build, last));
+    fr_pgraph_build_free(build);
+    fr_pgraph_build_free(last);
+    fr_pgraph_free(few);
+    fr_pgraph_free(graph);
+}
+
 #define NAME(text) "/pgraph/rebuild/" text
 
 int main(int argc, char **argv) {
@@ -274,6 +302,7 @@ int main(int argc, char **argv) {
                     test_whom_others_show);
     g_test_add_func(NAME("another seed makes all"), test_seed);
     g_test_add_func(NAME("components and links come and go"), test_structure);
+    g_test_add_func(NAME("components that nothing leads to come and go and count none"), test_lone);
     g_test_add_func(NAME("scopes, fields, chains, strings and choices follow edits"), test_mixture);
     g_test_add_func(NAME("what broke keeps its finish"), test_finishes);
     g_test_add_func(NAME("a build that fails leaves the last one as it was"), test_failure);
