@@ -25,8 +25,8 @@ static FrStatus expand_or_share(FrBuild *build) {
         made->taken_over = build->last->counts.instances;
         build->counts->instances = build->last->counts.instances;
         // All that made something is where it was; what nothing leads to may have come or gone.
-        guint components = MIN(fr_pgraph_count(build->expansion.graph),
-                               build->last->plant->components->len);
+        guint components =
+            MIN(fr_pgraph_count(build->expansion.graph), build->last->plant->components->len);
         memcpy(build->counts->by_component, build->last->counts.by_component,
                components * sizeof *build->counts->by_component);
     } else {

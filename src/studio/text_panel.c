@@ -12,10 +12,11 @@ struct _StudioTextPanel {
     StudioDocument *document; // borrowed
     char *place;              // of the element whose text it is; NULL: the whole document's
     GtkSourceBuffer *buffer;
-    GtkWidget *view;
+    GtkWidget *view, *note; // a label: why nothing can be typed
     GtkTextTag *error, *warning, *pointed;
     gboolean is_showing, is_typing;
-    guint seal; // timer that ends a step of typing
+    gboolean is_foreign; // the document is not UTF-8: its text is shown as well as can be
+    guint seal;          // timer that ends a step of typing
 };
 
 enum { SEAL_MILLISECONDS = 900 };
@@ -45,7 +46,7 @@ static gboolean on_seal(gpointer data) {
 
 static void on_changed(GtkTextBuffer *buffer, StudioTextPanel *panel) {
     (void)buffer;
-    if (panel->is_showing || panel->document == NULL) {
+    if (panel->is_showing || panel->document == NULL || panel->is_foreign) {
         return;
     }
     char *text = text_of(panel);
@@ -88,8 +89,21 @@ static size_t piece_at(const char *xml, const char *end, size_t *meaning) {
     return closed == NULL ? 1 : (size_t)(closed - xml) + 1;
 }
 
+// Bytes of the whole document, as far as `end`, in UTF-8. Free with g_free().
+static char *whole_text(StudioDocument *document, size_t end) {
+    size_t size;
+    const char *text = fr_source_text(studio_document_source(document), &size);
+    return g_utf8_make_valid(text, (gssize)MIN(size, end));
+}
+
 // Where a byte of the document is in the text that is shown; FR_NONE: outside.
 static uint32_t shown_offset(StudioTextPanel *panel, uint32_t offset) {
+    if (panel->place == NULL && panel->is_foreign) {
+        char *before = whole_text(panel->document, offset);
+        uint32_t shown = (uint32_t)strlen(before);
+        g_free(before);
+        return shown;
+    }
     if (panel->place == NULL) {
         return offset;
     }
@@ -163,10 +177,12 @@ void studio_text_panel_show(StudioTextPanel *panel, StudioDocument *document, ui
     panel->document = document;
     g_free(panel->place);
     panel->place = element == FR_NONE ? NULL : studio_place_of(contents, element);
-    char *text = element == FR_NONE
-                     ? g_strdup(fr_source_text(studio_document_source(document), NULL))
-                     : fr_contents_text(contents, element, NULL);
-    if (!panel->is_typing && g_utf8_validate(text, -1, NULL)) {
+    panel->is_foreign = !studio_document_is_text(document);
+    gtk_text_view_set_editable(GTK_TEXT_VIEW(panel->view), !panel->is_foreign);
+    gtk_widget_set_visible(panel->note, panel->is_foreign);
+    char *text = element == FR_NONE ? whole_text(document, SIZE_MAX)
+                                    : fr_contents_text(contents, element, NULL);
+    if (!panel->is_typing) {
         fill(panel, text);
     }
     g_free(text);
@@ -237,6 +253,7 @@ static void studio_text_panel_class_init(StudioTextPanelClass *class) {
 static void studio_text_panel_init(StudioTextPanel *panel) {
     GtkSourceLanguage *xml =
         gtk_source_language_manager_get_language(gtk_source_language_manager_get_default(), "xml");
+    gtk_orientable_set_orientation(GTK_ORIENTABLE(panel), GTK_ORIENTATION_VERTICAL);
     panel->buffer = gtk_source_buffer_new(NULL);
     gtk_source_buffer_set_language(panel->buffer, xml);
     gtk_text_buffer_set_enable_undo(buffer_of(panel), FALSE); // the document's undo is for all
@@ -259,6 +276,13 @@ static void studio_text_panel_init(StudioTextPanel *panel) {
     gtk_text_view_set_monospace(GTK_TEXT_VIEW(panel->view), TRUE);
     studio_name(panel->view, "Text of the document");
     g_signal_connect(panel->buffer, "changed", G_CALLBACK(on_changed), panel);
+    panel->note = gtk_label_new("This is not UTF-8: it can be read here, but not changed");
+    gtk_widget_set_name(panel->note, "text-note");
+    gtk_widget_add_css_class(panel->note, "text-note");
+    gtk_label_set_wrap(GTK_LABEL(panel->note), TRUE);
+    gtk_label_set_xalign(GTK_LABEL(panel->note), 0);
+    gtk_widget_set_visible(panel->note, FALSE);
+    gtk_box_append(GTK_BOX(panel), panel->note);
     GtkWidget *scrolled = gtk_scrolled_window_new();
     gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scrolled), panel->view);
     gtk_widget_set_vexpand(scrolled, TRUE);

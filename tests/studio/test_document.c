@@ -232,6 +232,22 @@ static void test_broken(void) {
     studio_document_free(document);
 }
 
+static void test_foreign(void) {
+    static const char *const foreign[] = {"<frond><!-- caf\xe9 --></frond>", "<frond/>\0"};
+    for (size_t i = 0; i < G_N_ELEMENTS(foreign); i++) {
+        StudioDocument *document =
+            studio_document_new(foreign[i], strlen(foreign[i]) + i, "foreign", NULL);
+        g_assert_false(studio_document_is_text(document));
+        g_assert_true(studio_document_is_broken(document));
+        g_assert_false(studio_add_component(document, FR_NONE, FR_COMPONENT_LEAF, NULL, NULL));
+        g_assert_cmpuint(studio_document_steps(document), ==, 0);
+        studio_document_free(document);
+    }
+    StudioDocument *document = small_document();
+    g_assert_true(studio_document_is_text(document));
+    studio_document_free(document);
+}
+
 static void assert_saved_unchanged(const char *folder, const char *name) {
     StudioDocument *document = open_example(name);
     char *path = g_build_filename(folder, "x.frond", NULL), *from = project_file(name);
@@ -473,6 +489,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/document/a new name reaches links and edits", test_rename);
     g_test_add_func("/studio/document/edits by hand are gathered", test_hand);
     g_test_add_func("/studio/document/a broken text refuses edits of elements", test_broken);
+    g_test_add_func("/studio/document/what is not UTF-8 is no text and refuses edits",
+                    test_foreign);
     g_test_add_func("/studio/document/every example saved unchanged is the same file",
                     test_unchanged_save);
     g_test_add_func("/studio/document/on a full disk the file stays and it is told",

@@ -8,7 +8,7 @@ from driven_plant import (
     test_curve, test_escape, test_flower, test_hand, test_keys, test_link, test_lsystem,
     test_material, test_own_wind, test_patch, test_preset, test_preset_files, test_repeat,
     test_slider, test_wind)
-from driven_run import PICTURES, Run, SOURCE
+from driven_run import BEGINNING, PICTURES, Run, SOURCE
 from driven_scene import (
     test_arrange, test_export_changed, test_export_one, test_grove, test_lamps, test_levels,
     test_light, test_rows)
@@ -37,6 +37,33 @@ def test_broken(run):
     run.picture("broken")
     state = run.studio.state()
     assert state["problems"] == 1 and state["triangles"] == 0, state
+
+
+def test_foreign(run):
+    """a document that is not UTF-8 can be read but not typed over"""
+    studio = run.studio
+    foreign = BEGINNING.replace("a stem", "a caf\u00e9").encode("latin-1")
+    file = os.path.join(run.home, "foreign.frond")
+    with open(file, "wb") as copy:
+        copy.write(foreign)
+    run.open(file)
+    before = studio.state()
+    assert before["problems"] == 1 and "not UTF-8" in studio.ask("text text-note"), before
+    studio.click(studio.middle("xml", 0.5, 0.2))
+    studio.pointer("type", "a")
+    studio.pointer("key", "Delete")
+    studio.ask("do problem")
+    run.picture("foreign")
+    assert studio.state()["digest"] == before["digest"] and studio.state()["steps"] == 0
+    studio.ask(f"do save-to('{file}')")
+    with open(file, "rb") as copy:
+        assert copy.read() == foreign
+    run.open(run.file)
+    try:
+        words = studio.ask("text text-note")
+    except AssertionError:
+        words = "none"  # it is hidden
+    assert words == "none", words
 
 
 def test_welcome(run):
@@ -139,7 +166,8 @@ def test_killed(run):
 
 
 TESTS = [
-    test_welcome, test_repeat, test_examples, test_broken, test_lsystem, test_preset_files,
+    test_welcome, test_repeat, test_examples, test_broken, test_foreign, test_lsystem,
+    test_preset_files,
     test_grove, test_levels, test_arrange, test_rows, test_export_changed, test_export_one,
     test_light, test_lamps, test_patch, test_own_wind, test_sketch, test_device, test_flower,
     test_link, test_escape, test_preset, test_slider, test_material, test_keys, test_wind,

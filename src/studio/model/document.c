@@ -175,6 +175,12 @@ bool studio_document_is_broken(const StudioDocument *document) {
     return document->is_broken;
 }
 
+bool studio_document_is_text(const StudioDocument *document) {
+    size_t size;
+    const char *text = studio_history_text(document->history, &size);
+    return g_utf8_validate(text, (gssize)size, NULL);
+}
+
 uint64_t studio_document_revision(const StudioDocument *document) {
     return document->revision;
 }

@@ -36,6 +36,8 @@ FrSource *studio_document_source(const StudioDocument *document);
 /// by elements are refused.
 const FrContents *studio_document_contents(const StudioDocument *document);
 bool studio_document_is_broken(const StudioDocument *document);
+/// Whether the text is UTF-8. Another cannot be typed in: it would not be the file's any more.
+bool studio_document_is_text(const StudioDocument *document);
 /// Grows with each change of the text.
 uint64_t studio_document_revision(const StudioDocument *document);
 /// XXH3 of the text.
