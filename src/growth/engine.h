@@ -273,13 +273,13 @@ typedef struct FrMisplaced {
     const FrSeed *first;
 } FrMisplaced;
 bool fr_seed_is_in_arena(const FrGrowthParams *params, const FrSeed *seed);
+/// False on the border of the arena where nothing can rise, with cells of this width.
+bool fr_seed_can_rise(const FrGrowthParams *params, vec3s up, double width, const FrSeed *seed);
 /// True for species whose plants do not stand beside their envelope: a trunk that begins below it
 /// grows into it. The caller frees it.
 bool *fr_species_come_within(const FrGrowthParams *params, const FrReadySpecies *species,
                              uint32_t count, vec3s up);
 void fr_misplaced_note(FrMisplaced *misplaced, const FrSeed *seed);
-void fr_misplaced_tell_left_out(const FrMisplaced *left_out, uint32_t count, bool is_all,
-                                const FrContext *context);
 void fr_misplaced_tell_outside(const FrMisplaced *outside, uint32_t count,
                                const FrContext *context);
 void fr_misplaced_tell_hindered(const FrMisplaced *hindered, uint32_t count,
@@ -296,6 +296,19 @@ bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, const double origin[3],
 /// Tells which seeds of a world that is yet to be made stand wrong.
 void fr_seeds_check(const FrGrowthSetup *setup, double width, vec3s up, const FrSeed *seeds,
                     uint32_t count, const FrContext *context);
+
+// ---- left_out.c -------------------------------------------------------------------------------
+/// Where seeds are looked at; as for fr_seeds_find_left_out().
+typedef struct FrSowing {
+    const FrGrowthSetup *setup;
+    const double *origin;
+    double width;
+    vec3s up;
+} FrSowing;
+/// Tells, for each element, which seeds have no place and why the first of them has none. `is_all`:
+/// there are no others.
+void fr_seeds_tell_left_out(const FrSowing *sowing, const FrSeed *seeds, uint32_t count,
+                            const bool *has_none, bool is_all, const FrContext *context);
 
 // ---- sow.c ------------------------------------------------------------------------------------
 FrStatus fr_growth_limit_plants(uint64_t count, const FrContext *context);

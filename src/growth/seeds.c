@@ -46,19 +46,6 @@ void fr_misplaced_note(FrMisplaced *misplaced, const FrSeed *seed) {
     misplaced->count++;
 }
 
-void fr_misplaced_tell_left_out(const FrMisplaced *left_out, uint32_t count, bool is_all,
-                                const FrContext *context) {
-    if (left_out->count > 0) {
-        const FrSeed *first = left_out->first;
-        fr_diags_add(
-            context->diags, FR_WARNING, "seed-place", first->span,
-            "%u of %u seeds have no place to stand, the first of them at %g,%g,%g: outside "
-            "the arena or in an obstacle%s",
-            left_out->count, count, first->at[0], first->at[1], first->at[2],
-            is_all ? "; nothing grows" : "");
-    }
-}
-
 void fr_misplaced_tell_outside(const FrMisplaced *outside, uint32_t count,
                                const FrContext *context) {
     if (outside->count > 0) {
@@ -81,9 +68,7 @@ void fr_misplaced_tell_hindered(const FrMisplaced *hindered, uint32_t count,
     }
 }
 
-/// False on the upper border of the arena, where nothing can rise.
-static bool has_cells_above(const FrGrowthParams *params, vec3s up, double width,
-                            const FrSeed *seed) {
+bool fr_seed_can_rise(const FrGrowthParams *params, vec3s up, double width, const FrSeed *seed) {
     FrSeed risen = *seed;
     for (int axis = 0; axis < 3; axis++) {
         risen.at[axis] += width * (double)up.raw[axis];
@@ -261,7 +246,7 @@ bool *fr_seeds_find_left_out(const FrGrowthSetup *setup, const double origin[3],
         }
         is_left_out[i] = is_held[(size_t)i * CELLS] || is_blocked ||
                          !fr_seed_is_in_arena(&setup->params, &seeds[i]) ||
-                         !has_cells_above(&setup->params, up, width, &seeds[i]);
+                         !fr_seed_can_rise(&setup->params, up, width, &seeds[i]);
     }
     g_free(is_held);
     g_free(is_taken);
@@ -341,17 +326,19 @@ void fr_seeds_check(const FrGrowthSetup *setup, double width, vec3s up, const Fr
     const double origin[3] = {(double)setup->params.min.x, (double)setup->params.min.y,
                               (double)setup->params.min.z};
     bool *is_left_out = fr_seeds_find_left_out(setup, origin, width, up, seeds, count);
-    FrMisplaced left_out = {0}, outside = {0}, hindered = {0};
+    FrMisplaced outside = {0}, hindered = {0};
+    uint32_t left_out = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (is_left_out[i]) {
-            fr_misplaced_note(&left_out, &seeds[i]);
+            left_out++;
         } else if (!come_within[seeds[i].species]) {
             fr_misplaced_note(&outside, &seeds[i]);
         } else if (is_hindered[i]) {
             fr_misplaced_note(&hindered, &seeds[i]);
         }
     }
-    fr_misplaced_tell_left_out(&left_out, count, left_out.count == count, context);
+    const FrSowing sowing = {setup, origin, width, up};
+    fr_seeds_tell_left_out(&sowing, seeds, count, is_left_out, left_out == count, context);
     fr_misplaced_tell_outside(&outside, count, context);
     fr_misplaced_tell_hindered(&hindered, count, context);
     g_free(is_hindered);

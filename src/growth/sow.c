@@ -77,7 +77,8 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
     growth->plants = g_renew(FrGrownPlant, growth->plants, first + count);
     memset(growth->plants + first, 0, count * sizeof *growth->plants);
     growth->plant_count += count;
-    FrMisplaced left_out = {0}, outside = {0}, hindered = {0};
+    FrMisplaced outside = {0}, hindered = {0};
+    uint32_t left_out = 0;
     const FrGrowthSetup setup = setup_of(growth);
     bool *is_hindered = fr_seeds_find_hindered(&setup, growth->species, growth->voxels->cell,
                                                growth->up, seeds, count);
@@ -92,7 +93,7 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
         plant->seed.span = (FrSpan){0};
         plant->place = FR_PLACE_NONE;
         if (is_left_out[i]) {
-            fr_misplaced_note(&left_out, &seeds[i]);
+            left_out++;
             continue;
         }
         if (!come_within[seeds[i].species]) {
@@ -106,18 +107,19 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
         status = add_particles(growth, particles, context);
     }
     g_array_free(particles, TRUE);
-    g_free(is_hindered);
-    g_free(is_left_out);
-    g_free(come_within);
     if (status != FR_OK) {
         keep_plants(growth, first);
     } else {
         fr_growth_find_bark(growth, context);
-        fr_misplaced_tell_left_out(&left_out, count, left_out.count == growth->plant_count,
-                                   context);
+        const FrSowing sowing = {&setup, growth->voxels->origin, growth->voxels->cell, growth->up};
+        fr_seeds_tell_left_out(&sowing, seeds, count, is_left_out, left_out == growth->plant_count,
+                               context);
         fr_misplaced_tell_outside(&outside, count, context);
         fr_misplaced_tell_hindered(&hindered, count, context);
     }
+    g_free(is_hindered);
+    g_free(is_left_out);
+    g_free(come_within);
     return status;
 }
 

@@ -223,7 +223,11 @@ def told_at_places(folder):
     for command in ("build", "check"):
         said = tap.run(command, document, "--set", "oak.species.leaf-length=0.3").stderr
         assert "wrong.frond:5:6: warning: 1 of 3" in said and "[seed-envelope]" in said, said
-        assert "wrong.frond:6:6: warning: 2 of 3" in said and "[seed-place]" in said, said
+        assert "wrong.frond:6:6: warning: 1 of 1 seeds have no place" in said and "outside the arena" in said, said
+        assert "wrong.frond:7:6: warning: 1 of 1" in said and "the obstacle of line 8" in said, said
+        assert said.count("[seed-place]") == 2 and "nothing grows" not in said, said
+        said = tap.run(command, document, "--set", "growth.gravity=0,0,1").stderr
+        assert "plants rise against `gravity` of <growth>, here towards 0,0,-1" in said, said
 
 
 def open_obstacles(folder):
