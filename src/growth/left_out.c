@@ -2,12 +2,12 @@
 #include "base/span.h"
 #include "growth/engine.h"
 
-/// True if one seed has no place among some of the obstacles.
-static bool is_left_out(const FrSowing *sowing, const FrSeed *seed, uint32_t first,
-                        uint32_t count) {
+/// True if one seed has no place beside one obstacle, or none if NULL.
+static bool is_left_out(const FrSowing *sowing, const FrSeed *seed,
+                        const FrGrowthObstacle *obstacle) {
     const FrGrowthSetup some = {.params = sowing->setup->params,
-                                .obstacles = sowing->setup->obstacles + first,
-                                .obstacle_count = count};
+                                .obstacles = obstacle,
+                                .obstacle_count = obstacle == NULL ? 0 : 1};
     bool *found = fr_seeds_find_left_out(&some, sowing->origin, sowing->width, sowing->up, seed, 1);
     bool is_found = *found;
     g_free(found);
@@ -35,12 +35,13 @@ static char *reason_of(const FrSowing *sowing, const FrSeed *seed) {
                                (double)sowing->up.x + 0.0, (double)sowing->up.y + 0.0,
                                (double)sowing->up.z + 0.0);
     }
-    if (is_left_out(sowing, seed, 0, 0)) {
+    if (is_left_out(sowing, seed, NULL)) {
         return g_strdup("the arena has become larger since growth began, its cells have not");
     }
     for (uint32_t i = 0; i < setup->obstacle_count; i++) {
-        if (!setup->obstacles[i].is_ground && is_left_out(sowing, seed, i, 1)) {
-            return reason_of_obstacle(&setup->obstacles[i].span);
+        const FrGrowthObstacle *obstacle = &setup->obstacles[i];
+        if (!obstacle->is_ground && is_left_out(sowing, seed, obstacle)) {
+            return reason_of_obstacle(&obstacle->span);
         }
     }
     return g_strdup("obstacles take all the room about it");

@@ -244,6 +244,9 @@ static FrStatus make_growth(FrEcosystem *ecosystem, FrHabitat *habitat, const Fr
 static void tell_ground(const FrEcosystem *ecosystem, uint32_t first, const FrScene *scene,
                         const FrHills *hills, const FrGrowthSetup *setup,
                         const FrContext *context) {
+    if (first == ecosystem->seeds->len) {
+        return;
+    }
     const FrSeed *seeds = (const FrSeed *)(const void *)ecosystem->seeds->data + first;
     uint32_t count = ecosystem->seeds->len - first;
     fr_sunken_tell(seeds, count, ecosystem->definitions, scene, hills, context);
