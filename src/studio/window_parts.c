@@ -281,11 +281,13 @@ static GtkWidget *make_problem(StudioWindow *window) {
     gtk_widget_add_css_class(box, "problem");
     gtk_box_append(GTK_BOX(box), gtk_image_new_from_icon_name("dialog-warning-symbolic"));
     window->problem_text = gtk_label_new("");
-    gtk_label_set_ellipsize(GTK_LABEL(window->problem_text), PANGO_ELLIPSIZE_END);
+    gtk_label_set_wrap(GTK_LABEL(window->problem_text), TRUE);
+    gtk_label_set_wrap_mode(GTK_LABEL(window->problem_text), PANGO_WRAP_WORD_CHAR);
     gtk_label_set_xalign(GTK_LABEL(window->problem_text), 0);
     gtk_widget_set_hexpand(window->problem_text, TRUE);
     gtk_box_append(GTK_BOX(box), window->problem_text);
     GtkWidget *button = gtk_button_new_with_label("Show");
+    gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
     g_signal_connect(button, "clicked", G_CALLBACK(on_show_problem), window);
     gtk_box_append(GTK_BOX(box), button);
     gtk_revealer_set_child(GTK_REVEALER(window->problem), box);
