@@ -72,12 +72,13 @@ void studio_graph_say(StudioGraphPanel *panel) {
 
 // The nearest box in a direction.
 static uint32_t neighbour(StudioGraphPanel *panel, uint32_t from, double dx, double dy) {
-    const StudioBox *here = studio_graph_box(panel->graph, from);
     uint32_t best = FR_NONE;
-    double nearest = INFINITY;
+    double nearest = INFINITY, here[2];
+    studio_graph_stand(panel, studio_graph_box(panel->graph, from), &here[0], &here[1]);
     for (guint i = 0; i < panel->graph->boxes->len; i++) {
-        const StudioBox *box = studio_graph_box(panel->graph, i);
-        double x = box->column - here->column, y = box->row - here->row;
+        double x, y;
+        studio_graph_stand(panel, studio_graph_box(panel->graph, i), &x, &y);
+        x -= here[0], y -= here[1];
         double ahead = x * dx + y * dy, aside = fabs(x * dy) + fabs(y * dx);
         if (ahead > 0.1 && ahead + 2 * aside < nearest) {
             nearest = ahead + 2 * aside;

@@ -261,6 +261,14 @@ static void studio_graph_panel_class_init(StudioGraphPanelClass *class) {
                                    NULL, NULL, G_TYPE_NONE, 1, G_TYPE_UINT);
 }
 
+static gboolean on_scroll(GtkEventControllerScroll *scroll, double dx, double dy,
+                          StudioGraphPanel *panel) {
+    (void)scroll;
+    studio_graph_scroll(panel, dx, dy);
+    gtk_widget_queue_draw(GTK_WIDGET(panel));
+    return TRUE;
+}
+
 static void add_controllers(StudioGraphPanel *panel) {
     GtkWidget *widget = GTK_WIDGET(panel);
     studio_listen_to_drags(widget, G_CALLBACK(on_begin), G_CALLBACK(on_drag), G_CALLBACK(on_end),
@@ -270,6 +278,10 @@ static void add_controllers(StudioGraphPanel *panel) {
     GtkEventController *motion = gtk_event_controller_motion_new();
     g_signal_connect(motion, "motion", G_CALLBACK(on_motion), panel);
     gtk_widget_add_controller(widget, motion);
+    GtkEventController *scroll =
+        gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_BOTH_AXES);
+    g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), panel);
+    gtk_widget_add_controller(widget, scroll);
 }
 
 static void studio_graph_panel_init(StudioGraphPanel *panel) {

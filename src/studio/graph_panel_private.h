@@ -12,6 +12,8 @@ enum {
     BOX_HEIGHT = 36,
     GAP_X = 14,
     GAP_Y = 34,
+    INDENT = 28, // of an outline
+    GAP_LINE = 12,
     PAD = 16,
     TOOL = 34,
     TOOL_PAD = 10,
@@ -53,10 +55,15 @@ double studio_graph_tools_top(StudioGraphPanel *panel);
 /// The height of the words above the tools.
 double studio_graph_line(StudioGraphPanel *panel);
 graphene_rect_t studio_graph_tool_rect(StudioGraphPanel *panel, guint kind);
-/// How large the graph is drawn: smaller where there is little room, larger where letters are.
+/// How large the graph is drawn: smaller where there is little room, but never so small that it is
+/// hard to read, larger where letters are.
 double studio_graph_scale(StudioGraphPanel *panel);
 graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t box);
 graphene_rect_t studio_graph_repeat_rect(StudioGraphPanel *panel, uint32_t repeat);
+/// Where a box stands, in boxes.
+void studio_graph_stand(StudioGraphPanel *panel, const StudioBox *box, double *x, double *y);
+/// Moves the graph by turns of a wheel, as far as there is more of it than is in sight.
+void studio_graph_scroll(StudioGraphPanel *panel, double dx, double dy);
 /// What a tool is called.
 const char *studio_graph_tool_name(guint tool);
 /// Moves the graph so far that the box of an element is in sight.

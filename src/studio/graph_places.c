@@ -5,6 +5,10 @@
 
 #include <math.h>
 
+enum { WHEEL_STEP = 40 };
+
+static const double LEAST_SCALE = 0.85; // letters are 9 px then
+
 static int width_of(StudioGraphPanel *panel) {
     return gtk_widget_get_width(GTK_WIDGET(panel));
 }
@@ -36,33 +40,74 @@ graphene_rect_t studio_graph_tool_rect(StudioGraphPanel *panel, guint kind) {
                               TOOL, TOOL);
 }
 
-double studio_graph_scale(StudioGraphPanel *panel) {
-    double wanted = panel->graph->columns * (BOX_WIDTH + GAP_X) - GAP_X + 2 * PAD;
-    double high = panel->graph->rows * (BOX_HEIGHT + GAP_Y) - GAP_Y + 2 * PAD;
-    double fit =
-        fmin(width_of(panel) / fmax(wanted, 1), studio_graph_tools_top(panel) / fmax(high, 1));
-    double most = studio_letter_scale(GTK_WIDGET(panel));
-    return CLAMP(fit, 0.6 * most, most);
+// How the graph stands, and how large it is at full size. Where the tidy tree would be too small to
+// read, an outline takes its place: it needs height, of which a panel has more than width.
+typedef struct Form {
+    bool is_outline;
+    double wide, high, scale;
+} Form;
+
+static double scale_into(StudioGraphPanel *panel, const Form *form) {
+    return fmin((width_of(panel) - 2 * PAD) / fmax(form->wide, 1),
+                (studio_graph_tools_top(panel) - 2 * PAD) / fmax(form->high, 1));
 }
 
-static graphene_rect_t rect_at(StudioGraphPanel *panel, double column, double row) {
-    double scale = studio_graph_scale(panel);
-    double whole = (panel->graph->columns * (BOX_WIDTH + GAP_X) - GAP_X) * scale;
-    double left = whole < width_of(panel) - 2 * PAD ? 0.5 * (width_of(panel) - whole) : PAD;
-    return GRAPHENE_RECT_INIT((float)(left + column * (BOX_WIDTH + GAP_X) * scale + panel->shift_x),
-                              (float)(PAD + row * (BOX_HEIGHT + GAP_Y) * scale + panel->shift_y),
-                              (float)(BOX_WIDTH * scale), (float)(BOX_HEIGHT * scale));
+static Form form_of(StudioGraphPanel *panel) {
+    const StudioGraph *graph = panel->graph;
+    double most = studio_letter_scale(GTK_WIDGET(panel)), least = LEAST_SCALE * most;
+    Form tree = {.wide = graph->columns * (BOX_WIDTH + GAP_X) - GAP_X,
+                 .high = graph->rows * (BOX_HEIGHT + GAP_Y) - GAP_Y};
+    tree.scale = scale_into(panel, &tree);
+    if (tree.scale >= least) {
+        tree.scale = fmin(tree.scale, most);
+        return tree;
+    }
+    guint lines = graph->boxes->len + graph->repeats->len;
+    Form outline = {.is_outline = true,
+                    .wide = (graph->rows - 1) * INDENT + BOX_WIDTH,
+                    .high = lines * (double)(BOX_HEIGHT + GAP_LINE) - GAP_LINE};
+    outline.scale = CLAMP(scale_into(panel, &outline), least, most);
+    return outline;
+}
+
+double studio_graph_scale(StudioGraphPanel *panel) {
+    return form_of(panel).scale;
+}
+
+void studio_graph_stand(StudioGraphPanel *panel, const StudioBox *box, double *x, double *y) {
+    bool is_outline = form_of(panel).is_outline;
+    *x = is_outline ? box->row * INDENT / BOX_WIDTH : box->column;
+    *y = is_outline ? box->line : box->row;
+}
+
+static graphene_rect_t rect_at(StudioGraphPanel *panel, double column, double row, uint32_t line) {
+    Form form = form_of(panel);
+    double x = form.is_outline ? row * INDENT : column * (BOX_WIDTH + GAP_X);
+    double y =
+        form.is_outline ? line * (double)(BOX_HEIGHT + GAP_LINE) : row * (BOX_HEIGHT + GAP_Y);
+    double left = fmax(PAD, 0.5 * (width_of(panel) - form.wide * form.scale));
+    return GRAPHENE_RECT_INIT((float)(left + x * form.scale + panel->shift_x),
+                              (float)(PAD + y * form.scale + panel->shift_y),
+                              (float)(BOX_WIDTH * form.scale), (float)(BOX_HEIGHT * form.scale));
+}
+
+void studio_graph_scroll(StudioGraphPanel *panel, double dx, double dy) {
+    Form form = form_of(panel);
+    double right = width_of(panel) - 2 * PAD - form.wide * form.scale;
+    double bottom = studio_graph_tools_top(panel) - 2 * PAD - form.high * form.scale;
+    panel->shift_x = CLAMP(panel->shift_x - dx * WHEEL_STEP, fmin(0, right), 0);
+    panel->shift_y = CLAMP(panel->shift_y - dy * WHEEL_STEP, fmin(0, bottom), 0);
 }
 
 graphene_rect_t studio_graph_box_rect(StudioGraphPanel *panel, uint32_t index) {
     const StudioBox *box = studio_graph_box(panel->graph, index);
-    return rect_at(panel, box->column, box->row);
+    return rect_at(panel, box->column, box->row, box->line);
 }
 
 // A little smaller than a box.
 graphene_rect_t studio_graph_repeat_rect(StudioGraphPanel *panel, uint32_t index) {
     const StudioRepeat *repeat = studio_graph_repeat(panel->graph, index);
-    graphene_rect_t rect = rect_at(panel, repeat->column, repeat->row);
+    graphene_rect_t rect = rect_at(panel, repeat->column, repeat->row, repeat->line);
     graphene_rect_inset(&rect, 0.04f * rect.size.width, 0.08f * rect.size.height);
     return rect;
 }
@@ -123,7 +168,8 @@ void studio_graph_wire_course(StudioGraphPanel *panel, const StudioWire *wire, d
     graphene_rect_t from = studio_graph_box_rect(panel, wire->from),
                     to = wire->again != FR_NONE ? studio_graph_repeat_rect(panel, wire->again)
                                                 : studio_graph_box_rect(panel, wire->to);
-    double scale = studio_graph_scale(panel);
+    Form form = form_of(panel);
+    double scale = form.scale;
     if (!wire->is_tree) { // out at the right and back from there
         double right = from.origin.x + from.size.width, other = to.origin.x + to.size.width;
         double bulge = 34 * scale;
@@ -131,6 +177,13 @@ void studio_graph_wire_course(StudioGraphPanel *panel, const StudioWire *wire, d
         at[3][0] = other, at[3][1] = to.origin.y + 0.28 * to.size.height;
         at[1][0] = right + bulge, at[1][1] = at[0][1];
         at[2][0] = other + bulge, at[2][1] = at[3][1];
+        return;
+    }
+    if (form.is_outline) { // down, and to the right where it ends
+        at[0][0] = from.origin.x + 0.4 * INDENT * scale,
+        at[0][1] = from.origin.y + from.size.height;
+        at[3][0] = to.origin.x, at[3][1] = to.origin.y + 0.5 * to.size.height;
+        at[1][0] = at[2][0] = at[0][0], at[1][1] = at[2][1] = at[3][1];
         return;
     }
     double bend = 0.5 * GAP_Y * scale;

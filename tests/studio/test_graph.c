@@ -111,6 +111,27 @@ static void assert_apart(const StudioGraph *graph) {
     }
 }
 
+// Of an outline: lines are used once and without gaps, and what hangs on a box is below it.
+static void assert_lines(const StudioGraph *graph) {
+    guint count = graph->boxes->len + graph->repeats->len;
+    bool *is_used = g_new0(bool, count + 1);
+    for (guint i = 0; i < count; i++) {
+        uint32_t line = i < graph->boxes->len
+                            ? studio_graph_box(graph, i)->line
+                            : studio_graph_repeat(graph, i - graph->boxes->len)->line;
+        g_assert_cmpuint(line, <, count);
+        g_assert_false(is_used[line]);
+        is_used[line] = true;
+    }
+    for (guint i = 0; i < graph->wires->len; i++) {
+        const StudioWire *wire = studio_graph_wire(graph, i);
+        uint32_t end = wire->again != FR_NONE ? studio_graph_repeat(graph, wire->again)->line
+                                              : studio_graph_box(graph, wire->to)->line;
+        g_assert_true(!wire->is_tree || end > studio_graph_box(graph, wire->from)->line);
+    }
+    g_free(is_used);
+}
+
 static double end_of(const StudioGraph *graph, const StudioWire *wire) {
     return wire->again != FR_NONE ? studio_graph_repeat(graph, wire->again)->column
                                   : studio_graph_box(graph, wire->to)->column;
@@ -143,6 +164,7 @@ static void test_layout(void) {
             StudioGraph *graph = graph_of(document);
             assert_apart(graph);
             assert_no_crossings(graph);
+            assert_lines(graph);
             studio_graph_free(graph);
             studio_document_free(document);
             g_free(relative);
@@ -166,6 +188,7 @@ static void test_unlinked(void) {
     g_assert_false(box_of(graph, "b")->is_enabled);
     assert_repeat(graph, "d", "c", "again");
     assert_apart(graph);
+    assert_lines(graph);
     studio_graph_free(graph);
 }
 

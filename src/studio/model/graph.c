@@ -129,12 +129,14 @@ typedef struct Walk {
     bool *is_above;    // on the way to the box that is placed now, or that itself
     uint32_t *came_by; // the wire to a box in the tree
     double column;     // the next that is free
+    uint32_t line;
 } Walk;
 
 // From the end of a recursion back up to its first.
 static void close_recursion(Walk *walk, StudioWire *wire, double row) {
     StudioGraph *graph = walk->graph;
-    StudioRepeat repeat = {.box = wire->to, .column = walk->column++, .row = row};
+    StudioRepeat repeat = {
+        .box = wire->to, .column = walk->column++, .row = row, .line = walk->line++};
     wire->again = graph->repeats->len;
     wire->is_tree = wire->is_repeated = true;
     for (uint32_t box = wire->from;;) {
@@ -156,6 +158,7 @@ static void close_recursion(Walk *walk, StudioWire *wire, double row) {
 static void place(Walk *walk, uint32_t box, uint32_t row) {
     StudioGraph *graph = walk->graph;
     walk->is_placed[box] = walk->is_above[box] = true;
+    uint32_t line = walk->line++;
     double first = NAN, last = NAN;
     for (guint w = 0; w < graph->wires->len; w++) {
         StudioWire *wire = &g_array_index(graph->wires, StudioWire, w);
@@ -175,6 +178,7 @@ static void place(Walk *walk, uint32_t box, uint32_t row) {
     }
     StudioBox *at = box_at(graph, box);
     at->row = row;
+    at->line = line;
     at->column = isnan(first) ? walk->column++ : 0.5 * (first + last);
     graph->rows = fmax(graph->rows, row + 1);
     graph->columns = walk->column;
@@ -194,7 +198,7 @@ static bool is_root(const StudioGraph *graph, uint32_t box) {
 // Roots first; what is in a circle that nothing leads to begins at its first.
 static void lay_out(StudioGraph *graph) {
     guint room = graph->boxes->len + 1;
-    Walk walk = {graph, g_new0(bool, room), g_new0(bool, room), g_new0(uint32_t, room), 0};
+    Walk walk = {graph, g_new0(bool, room), g_new0(bool, room), g_new0(uint32_t, room), 0, 0};
     for (int pass = 0; pass < 2; pass++) {
         for (guint i = 0; i < graph->boxes->len; i++) {
             if (!walk.is_placed[i] && (pass == 1 || is_root(graph, i))) {

@@ -10,6 +10,7 @@ typedef struct StudioBox {
     char *id;
     FrComponentKind kind;
     double column, row; ///< of its middle; a box is 1 wide and 1 high
+    uint32_t line;      ///< where each box and repeat has a line of its own, below what it hangs on
     bool is_enabled;
     bool is_recursive; ///< it follows upon itself, at once or by way of others
     bool is_reached;   ///< something leads to it, or everything begins at it
@@ -29,7 +30,8 @@ typedef struct StudioWire {
 typedef struct StudioRepeat {
     uint32_t box;       ///< that it stands for
     double column, row; ///< as of a box
-    uint32_t depth;     ///< how often the recursion goes round; 0: not known
+    uint32_t line;
+    uint32_t depth; ///< how often the recursion goes round; 0: not known
 } StudioRepeat;
 
 typedef struct StudioGraph {
@@ -58,7 +60,8 @@ char *studio_time_text(double seconds);
 /// A graph of nothing.
 StudioGraph *studio_graph_empty(void);
 /// The graph of a plant; empty if it has none. Laid out as a tidy tree: parents above the middle of
-/// their children and repeats, in the order of the document, no two in one place.
+/// their children and repeats, in the order of the document, no two in one place; and as an
+/// outline, by lines, where boxes are indented by their rows.
 StudioGraph *studio_graph_new(const FrContents *contents, uint32_t plant);
 void studio_graph_free(StudioGraph *graph);
 const StudioBox *studio_graph_box(const StudioGraph *graph, uint32_t box);
