@@ -149,6 +149,10 @@ FR_API uint32_t fr_growth_plant_count(const FrGrowth *growth);
 FR_API bool fr_growth_is_waiting(const FrGrowth *growth, uint32_t plant);
 /// True if a plant has a growing bud.
 FR_API bool fr_growth_is_alive(const FrGrowth *growth, uint32_t plant);
+/// Tells, for each species, how many plants have made no internode in the steps so far, but those
+/// that fr_growth_add_seeds() has told. `seeds` are all seeds, for their places in a document.
+FR_API void fr_growth_tell_bare(const FrGrowth *growth, const FrSeed *seeds,
+                                const FrContext *context);
 /// Volume of a plant's wood, m³: its internodes as cylinders.
 FR_API double fr_growth_wood(const FrGrowth *growth, uint32_t plant);
 FR_API FrSeed fr_growth_seed(const FrGrowth *growth, uint32_t plant);

@@ -229,6 +229,7 @@ typedef struct FrSpecies {
     FrMaterial *bark, *leaf;             ///< NULL: plain ones
     const FrDistance *envelope;          ///< closed surface to grow within, relative to the seed;
                                          ///< NULL: the parameter `envelope`
+    bool is_absent; ///< nothing of it stands: it has no say in how wide cells are
 } FrSpecies;
 
 /// The defaults, and no orders of its own.

@@ -275,8 +275,8 @@ typedef struct FrMisplaced {
 bool fr_seed_is_in_arena(const FrGrowthParams *params, const FrSeed *seed);
 /// False on the border of the arena where nothing can rise, with cells of this width.
 bool fr_seed_can_rise(const FrGrowthParams *params, vec3s up, double width, const FrSeed *seed);
-/// True for species whose plants do not stand beside their envelope: a trunk that begins below it
-/// grows into it. The caller frees it.
+/// True for species whose plants do not stand beside their envelope: a trunk that begins below it,
+/// or nearer to it than an internode is long, may grow into it. The caller frees it.
 bool *fr_species_come_within(const FrGrowthParams *params, const FrReadySpecies *species,
                              uint32_t count, vec3s up);
 void fr_misplaced_note(FrMisplaced *misplaced, const FrSeed *seed);
@@ -284,8 +284,9 @@ void fr_misplaced_tell_outside(const FrMisplaced *outside, uint32_t count,
                                const FrContext *context);
 void fr_misplaced_tell_hindered(const FrMisplaced *hindered, uint32_t count,
                                 const FrContext *context);
-/// Which seeds have no room straight above them for their first internode and the box around its
-/// tip. Plants that colonize space or climb are not told. The caller frees it.
+/// Which seeds have no room straight above them, in the arena and in their envelope, for their
+/// first internode and the box around its tip. Plants that colonize space or climb are not told.
+/// The caller frees it.
 bool *fr_seeds_find_hindered(const FrGrowthSetup *setup, const FrReadySpecies *species,
                              double width, vec3s up, const FrSeed *seeds, uint32_t count);
 /// Which seeds have no place: outside the arena, on its upper border, in an obstacle, or with no
@@ -309,6 +310,12 @@ typedef struct FrSowing {
 /// there are no others.
 void fr_seeds_tell_left_out(const FrSowing *sowing, const FrSeed *seeds, uint32_t count,
                             const bool *has_none, bool is_all, const FrContext *context);
+
+// ---- bare.c -----------------------------------------------------------------------------------
+/// Tells seeds that stand less than half a cell from another one; cells are `width` wide. O(n log
+/// n) unless many stand above each other.
+void fr_seeds_tell_crowded(const FrReadySpecies *species, double width, const FrSeed *seeds,
+                           uint32_t count, const FrContext *context);
 
 // ---- sow.c ------------------------------------------------------------------------------------
 FrStatus fr_growth_limit_plants(uint64_t count, const FrContext *context);

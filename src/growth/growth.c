@@ -22,7 +22,8 @@ static double cell_of(const FrGrowthSetup *setup) {
     double shortest = INFINITY, widest = 0;
     for (uint32_t i = 0; i < setup->species_count; i++) {
         const FrSpeciesParams *species = &setup->species[i].params;
-        double least = species->collide ? species->step : INFINITY;
+        bool takes_cells = species->collide && !setup->species[i].is_absent;
+        double least = takes_cells ? species->step : INFINITY;
         shortest = MIN(shortest, least);
     }
     for (int axis = 0; axis < 3; axis++) {
@@ -46,7 +47,8 @@ static FrStatus check_setup(const FrGrowthSetup *setup, double cell, const FrCon
     }
     for (uint32_t i = 0; i < setup->species_count && setup->species != NULL; i++) {
         const FrSpeciesParams *species = &setup->species[i].params;
-        if (species->collide && cells_crossed(cell, species) > FR_WALK_CELLS) {
+        if (species->collide && !setup->species[i].is_absent &&
+            cells_crossed(cell, species) > FR_WALK_CELLS) {
             fr_diags_add(context->diags, FR_ERROR, "cell-step", (FrSpan){0},
                          "internodes of '%s' may become %g m long, which is too much for cells of "
                          "%g m; make `cell` larger or `collide` no",
@@ -67,7 +69,8 @@ static void tell_wide_cells(const FrGrowthSetup *setup, double cell, const FrCon
         const FrSpeciesParams *species = &setup->species[i].params;
         double internode =
             species->step * CLAMP(1 - species->search, species->min_length, species->max_length);
-        if (species->collide && (double)species->box / 2 * cell > borne * internode) {
+        if (species->collide && !setup->species[i].is_absent &&
+            (double)species->box / 2 * cell > borne * internode) {
             fr_diags_add(
                 context->diags, FR_WARNING, "wide-cells", (FrSpan){0},
                 "'%s' may hardly grow: around each tip %d cells of %g m must be free, but its "
@@ -75,6 +78,15 @@ static void tell_wide_cells(const FrGrowthSetup *setup, double cell, const FrCon
                 setup->species[i].name == NULL ? "?" : setup->species[i].name, (int)species->box,
                 cell, internode, setup->params.cell > 0 ? "`cell`" : "the arena");
         }
+    }
+}
+
+static void tell_suns(const FrGrowthParams *params, const FrContext *context) {
+    if (params->light == FR_GROWTH_VIEWS && params->suns > params->views) {
+        fr_diags_add(context->diags, FR_WARNING, "suns-views", (FrSpan){0},
+                     "suns is %d, but there are %d views: all of them lie on the path of the sun, "
+                     "and none looks at the sky",
+                     (int)params->suns, (int)params->views);
     }
 }
 
@@ -89,7 +101,7 @@ static void take_species(FrGrowth *growth, const FrGrowthSetup *setup) {
     for (uint32_t i = 0; i < setup->species_count; i++) {
         growth->species[i] = fr_species_make_ready(&setup->species[i]);
         const FrSpeciesParams *params = &growth->species[i].params;
-        if (params->collide) {
+        if (params->collide && !setup->species[i].is_absent) {
             most = MAX(most, (uint32_t)cells_crossed(growth->voxels->cell, params));
         }
     }
@@ -171,6 +183,7 @@ FrStatus fr_growth_new(const FrGrowthSetup *setup, const FrContext *context, FrG
         return status;
     }
     tell_wide_cells(setup, cell, context);
+    tell_suns(&setup->params, context);
     FrGrowth *made = g_new0(FrGrowth, 1);
     made->history = g_ptr_array_new_with_free_func((GDestroyNotify)g_bytes_unref);
     double origin[3];
@@ -270,6 +283,7 @@ FrStatus fr_growth_check(const FrGrowthSetup *setup, const FrSeed *seeds, uint32
     }
     if (status == FR_OK) {
         tell_wide_cells(setup, cell_of(setup), context);
+        tell_suns(&setup->params, context);
         fr_seeds_check(setup, cell_of(setup), up_of(&setup->params), seeds, count, context);
     }
     return status;

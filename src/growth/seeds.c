@@ -17,6 +17,15 @@ bool fr_seed_is_in_arena(const FrGrowthParams *params, const FrSeed *seed) {
     return true;
 }
 
+/// A way straight up, as a trunk goes that begins outside; it wanders by about an internode, so
+/// that is how near to a mesh it must come.
+static bool comes_near(const FrReadySpecies *species, vec3s at, vec3s up) {
+    double place[3] = {(double)at.x, (double)at.y, (double)at.z}, outward[3];
+    return species->envelope == NULL
+               ? fr_envelope_holds(species, at, up)
+               : fr_distance_at(species->envelope, place, outward) < species->params.step;
+}
+
 static bool comes_within(const FrGrowthParams *params, const FrReadySpecies *species, vec3s up) {
     enum { PLACES = 1024 };
     double highest = 0;
@@ -27,7 +36,7 @@ static bool comes_within(const FrGrowthParams *params, const FrReadySpecies *spe
     bool is_within = false;
     for (int i = 0; i < PLACES && !is_within; i++) {
         vec3s at = glms_vec3_scale(up, (float)(highest * i / PLACES));
-        is_within = fr_envelope_holds(species, at, up);
+        is_within = comes_near(species, at, up);
     }
     return is_within;
 }
@@ -61,10 +70,11 @@ void fr_misplaced_tell_hindered(const FrMisplaced *hindered, uint32_t count,
                                 const FrContext *context) {
     if (hindered->count > 0) {
         const FrSeed *first = hindered->first;
-        fr_diags_add(context->diags, FR_WARNING, "seed-room", first->span,
-                     "%u of %u seeds have no room above them for a first internode and hardly "
-                     "grow, the first of them at %g,%g,%g: an obstacle or the arena ends it",
-                     hindered->count, count, first->at[0], first->at[1], first->at[2]);
+        fr_diags_add(
+            context->diags, FR_WARNING, "seed-room", first->span,
+            "%u of %u seeds have no room above them for a first internode and hardly "
+            "grow, the first of them at %g,%g,%g: an obstacle, the arena or the envelope ends it",
+            hindered->count, count, first->at[0], first->at[1], first->at[2]);
     }
 }
 
@@ -275,6 +285,17 @@ static double headroom_of(const FrReadySpecies *species, double width) {
                : 0;
 }
 
+/// True if a first internode, which is `length` long, leaves the envelope that its seed is within,
+/// or is longer than the envelope is wide there.
+static bool leaves_envelope(const FrReadySpecies *species, double length, vec3s up) {
+    vec3s tip = glms_vec3_scale(up, (float)length);
+    const FrPoints *outline = &species->params.envelope;
+    bool is_turned = species->envelope == NULL && outline->count > 1;
+    return length > 0 && fr_envelope_holds(species, (vec3s){{0, 0, 0}}, up) &&
+           (!fr_envelope_holds(species, tip, up) ||
+            (is_turned && 2 * fr_envelope_radius(outline, length) < length));
+}
+
 bool *fr_seeds_find_hindered(const FrGrowthSetup *setup, const FrReadySpecies *species,
                              double width, vec3s up, const FrSeed *seeds, uint32_t count) {
     bool *is_hindered = g_new0(bool, (size_t)count + 1);
@@ -290,7 +311,8 @@ bool *fr_seeds_find_hindered(const FrGrowthSetup *setup, const FrReadySpecies *s
             to[i].at[axis] =
                 room > 0 ? seeds[i].at[axis] + room * (double)up.raw[axis] : from[i].at[axis];
         }
-        is_hindered[i] = !fr_seed_is_in_arena(&setup->params, &tip);
+        is_hindered[i] =
+            !fr_seed_is_in_arena(&setup->params, &tip) || leaves_envelope(of, length, up);
         reach = fmax(reach, room);
     }
     Sorted *sorted = sort_places(from, count);
@@ -319,6 +341,7 @@ void fr_seeds_check(const FrGrowthSetup *setup, double width, vec3s up, const Fr
     }
     bool *come_within = fr_species_come_within(&setup->params, species, setup->species_count, up);
     bool *is_hindered = fr_seeds_find_hindered(setup, species, width, up, seeds, count);
+    fr_seeds_tell_crowded(species, width, seeds, count, context);
     for (uint32_t i = 0; i < setup->species_count; i++) {
         fr_species_clear_ready(&species[i]);
     }

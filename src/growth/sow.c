@@ -116,6 +116,7 @@ FrStatus fr_growth_add_seeds(FrGrowth *growth, const FrSeed *seeds, uint32_t cou
                                context);
         fr_misplaced_tell_outside(&outside, count, context);
         fr_misplaced_tell_hindered(&hindered, count, context);
+        fr_seeds_tell_crowded(growth->species, growth->voxels->cell, seeds, count, context);
     }
     g_free(is_hindered);
     g_free(is_left_out);

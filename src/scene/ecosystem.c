@@ -157,8 +157,20 @@ static void remember_steps(const FrEcosystem *ecosystem, FrHabitat *habitat) {
     params->history = MAX(params->history, (int64_t)ecosystem->history);
 }
 
+/// Species of which no seed stands have no say in how wide cells are; where there is no seed yet,
+/// all of them have.
+static void mark_absent(const FrEcosystem *ecosystem, FrHabitat *habitat) {
+    for (guint i = 0; i < habitat->setup.species_count; i++) {
+        habitat->species[i].is_absent = ecosystem->seeds->len > 0;
+    }
+    for (guint i = 0; i < ecosystem->seeds->len; i++) {
+        habitat->species[g_array_index(ecosystem->seeds, FrSeed, i).species].is_absent = false;
+    }
+}
+
 static FrHabitat set_up(const FrEcosystem *ecosystem, const FrScene *scene) {
     FrHabitat habitat = fr_habitat_new(ecosystem->document, ecosystem->seed, scene);
+    mark_absent(ecosystem, &habitat);
     remember_steps(ecosystem, &habitat);
     return habitat;
 }
@@ -437,6 +449,7 @@ void fr_ecosystem_tell_grown(const FrEcosystem *ecosystem, const FrScene *scene,
         .definitions = ecosystem->definitions,
     };
     fr_reaching_tell(scene, &seeds, &told.context);
+    fr_growth_tell_bare(ecosystem->growth, seeds.at, &told.context);
     tell(&told, ecosystem->document);
 }
 

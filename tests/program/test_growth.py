@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -339,6 +340,63 @@ def on_obstacles(folder):
         stands(at, 0)
 
 
+def without_internodes(folder):
+    """Seeds on each other, in narrow envelopes and in low arenas are told, and so are those that made nothing."""
+    document = folder / "bare.frond"
+    (folder / "box.obj").write_text("".join(f"v {x} {y} {z}\n" for y in (0, 3) for z in (-1, 1) for x in (-1, 1)) +
+                                    "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
+
+    def told(species="", places=("0, 0, 0",), top=8):
+        stands = "".join(f'\n    <place plant="tree" at="{at}"/>' for at in places)
+        document.write_text(f"""<frond version="1">
+  <plant id="tree"><species model="open" step="0.3"{species}/></plant>
+  <scene>
+    <growth steps="8" min="-8, -8, -1" max="8, 8, {top}" cell="0.03"/>{stands}
+  </scene>
+</frond>
+""")
+        codes = [re.findall(r"\[([a-z-]+)\]", tap.run(verb, document).stderr) for verb in ("check", "build")]
+        return codes, tap.statistics(document)["nodes"]
+
+    assert told()[0] == [[], []]
+    for narrow in ("0.005,0 0.005,4", "3,0 3,0.05"):
+        assert told(f' envelope="{narrow}"') == ([["seed-room"]] * 2, 0), narrow
+    assert told(top=0.1) == ([["seed-room"]] * 2, 0)
+    faces = told(' envelope-file="box.obj"')  # the seed is on its lower face
+    assert faces[0] == [[], []] and faces[1] > 10, faces
+    beside = told(' envelope-file="box.obj"', top=8, places=("3, 0, 0",))
+    assert beside[0] == [[], []], beside
+    three = told(places=["0, 0, 0"] * 3)
+    assert three[0] == [["seeds-together"], ["seeds-together", "no-internode"]], three
+    assert told(places=["0, 0, 0", "0.3, 0, 0"])[0] == [[], []]
+
+
+def absent_species(folder):
+    """A plant that stands nowhere does not change how wide cells are."""
+    document = folder / "tree.frond"
+    text = """<frond version="1">
+  <plant id="tree"><species model="open" step="0.4"/></plant>
+  <scene><growth steps="6" min="-10,-10,0" max="10,10,12"/><place plant="tree"/></scene>
+</frond>
+"""
+    document.write_text(text)
+    digest = tap.statistics(document)["digest"]
+    document.write_text(text.replace("  <scene>", '  <plant id="never"><species step="0.05"/></plant>\n  <scene>'))
+    assert tap.run("check", document).stderr == ""
+    assert tap.statistics(document)["digest"] == digest
+
+
+def more_suns_than_views(folder):
+    document = folder / "suns.frond"
+    document.write_text("""<frond version="1">
+  <plant id="tree"><species/></plant>
+  <scene><growth steps="2" suns="30" views="10"/><place plant="tree"/></scene>
+</frond>
+""")
+    assert "[suns-views]" in tap.run("check", document).stderr
+    assert tap.run("check", document, "--set", "growth.suns=10").stderr == ""
+
+
 def sunken(folder):
     """A seed that the first internode does not bring out of the ground is told."""
     document = folder / "sunken.frond"
@@ -451,6 +509,9 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
          ("/program/growth/a state with more steps than asked for is told", resumed_later),
          ("/program/growth/seeds that cannot grow are told at their places", told_at_places),
          ("/program/growth/what stands on an obstacle grows", on_obstacles),
+         ("/program/growth/plants without an internode are told", without_internodes),
+         ("/program/growth/only species that stand decide how wide cells are", absent_species),
+         ("/program/growth/more suns than views are told", more_suns_than_views),
          ("/program/growth/seeds that the ground holds are told", sunken),
          ("/program/growth/seeds that stand on nothing are told", floating),
          ("/program/growth/obstacles that are not closed are told", open_obstacles),
