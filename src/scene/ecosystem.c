@@ -2,6 +2,7 @@
 /// that to plants of the scene.
 #include "scene/ecosystem.h"
 
+#include "scene/contents.h"
 #include "scene/floating.h"
 #include "scene/habitat.h"
 #include "scene/particles.h"
@@ -454,10 +455,7 @@ void fr_ecosystem_tell_grown(const FrEcosystem *ecosystem, const FrScene *scene,
 }
 
 FrDigest fr_ecosystem_digest(const FrEcosystem *ecosystem) {
-    size_t size;
-    char *text = fr_document_text(ecosystem->document, &size);
-    FrDigest digest = fr_digest(ecosystem->world, text, size);
-    g_free(text);
+    FrDigest digest = fr_contents_digest(ecosystem->world, ecosystem->document);
     return fr_digest(digest, &ecosystem->seed, sizeof ecosystem->seed);
 }
 

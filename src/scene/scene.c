@@ -114,7 +114,8 @@ static void warn_of_nothing(const Build *build, const FrPlantDef *definition,
                             const FrPlant *plant) {
     if (!can_be_seen(plant)) {
         fr_diags_add(build->context->diags, FR_WARNING, "nothing-to-see", definition->span,
-                     "nothing of the plant '%s' can be seen: it has no stem, leaf or solid",
+                     "nothing of the plant '%s' can be seen at this time: it has no stem, leaf or "
+                     "solid, or all of them are hidden or of size 0",
                      definition->id);
     }
 }

@@ -119,6 +119,24 @@ def resumed_among(folder):
     assert len(strings[0]) < len(strings[1])
 
 
+def told_otherwise(folder):
+    """A comment or a blank between elements makes no other document."""
+    document, saved = folder / "tree.frond", folder / "saved"
+    text = """<frond version="1">
+  <plant id="tree"><species model="open"/></plant>
+  <scene><growth steps="5" min="-4,-4,0" max="4,4,6"/><place plant="tree"/></scene>
+</frond>
+"""
+    document.write_text(text)
+    whole = tap.statistics(document)["digest"]
+    tap.run("build", document, "-q", "--steps", 2, "--checkpoint", saved)
+    for other in (text + "<!-- c -->\n", text.replace("><", ">\n    <!-- a > b -->\n<"), text.replace("\n", "")):
+        document.write_text(other)
+        assert tap.statistics(document, "--resume", saved)["digest"] == whole, other
+    document.write_text(text.replace("open", "rauh"))
+    assert "[other-document]" in tap.run("build", document, "--resume", saved, status=1).stderr
+
+
 def refused(folder):
     saved = folder / "saved"
     tap.run("build", PARTS, "-q", "--steps", 3, "--checkpoint", saved)
@@ -500,6 +518,7 @@ TESTS = [("/program/growth/--steps takes as many as the attribute", one_bound),
          ("/program/growth/a run that is killed loses a step at most", killed),
          ("/program/growth/so does one in which L-systems grow too", killed_among),
          ("/program/growth/and is resumed with more steps, whatever L-systems stand in it", resumed_among),
+         ("/program/growth/comments make no other document", told_otherwise),
          ("/program/growth/checkpoints of other documents, seeds and versions are refused", refused),
          ("/program/growth/damaged checkpoints are refused", damaged),
          ("/program/growth/frames show the steps", frames),
