@@ -19,7 +19,7 @@ void studio_graph_drop(StudioGraphPanel *panel) {
         panel->over == FR_NONE ? NULL : studio_graph_box(panel->graph, panel->over);
     char *target = on == NULL ? NULL : g_strdup(on->id);
     char *made = NULL;
-    bool is_tool = panel->drag == DRAG_TOOL && panel->y < studio_graph_tools_top(panel);
+    bool is_tool = panel->drag == DRAG_TOOL && (on != NULL || studio_graph_is_beside_boxes(panel));
     if (is_tool && panel->held == TOOL_PRESET) {
         gtk_widget_activate_action(GTK_WIDGET(panel), "win.insert-preset-on", "s",
                                    target == NULL ? "" : target);

@@ -74,6 +74,8 @@ void studio_graph_wire_course(StudioGraphPanel *panel, const StudioWire *wire, d
 uint32_t studio_graph_box_under(StudioGraphPanel *panel, double x, double y);
 uint32_t studio_graph_tool_under(StudioGraphPanel *panel, double x, double y);
 uint32_t studio_graph_wire_under(StudioGraphPanel *panel, double x, double y);
+/// Whether the pointer is where boxes are, and on none: not over the tools or another pane.
+bool studio_graph_is_beside_boxes(StudioGraphPanel *panel);
 /// What would come of a drop here, in words; NULL: nothing. Free with g_free().
 char *studio_graph_words_of_drop(StudioGraphPanel *panel, bool *is_refused);
 

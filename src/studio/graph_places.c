@@ -134,6 +134,9 @@ static bool is_within(const graphene_rect_t *rect, double x, double y) {
 }
 
 uint32_t studio_graph_box_under(StudioGraphPanel *panel, double x, double y) {
+    if (x < 0 || y < 0 || x >= width_of(panel)) {
+        return FR_NONE; // a part of the graph that is out of sight
+    }
     for (guint i = 0; y < studio_graph_tools_top(panel) && i < panel->graph->boxes->len; i++) {
         graphene_rect_t rect = studio_graph_box_rect(panel, i);
         if (is_within(&rect, x, y)) {
@@ -213,11 +216,16 @@ uint32_t studio_graph_wire_under(StudioGraphPanel *panel, double x, double y) {
     return FR_NONE;
 }
 
+bool studio_graph_is_beside_boxes(StudioGraphPanel *panel) {
+    return panel->over == FR_NONE && panel->x >= 0 && panel->x < width_of(panel) && panel->y >= 0 &&
+           panel->y < studio_graph_tools_top(panel);
+}
+
 // In words, with whether it can be done; NULL: nothing.
 char *studio_graph_words_of_drop(StudioGraphPanel *panel, bool *is_refused) {
     *is_refused = false;
     if (panel->over == FR_NONE) {
-        return panel->drag == DRAG_TOOL && panel->y < studio_graph_tools_top(panel)
+        return panel->drag == DRAG_TOOL && studio_graph_is_beside_boxes(panel)
                    ? g_strdup("not linked yet")
                    : NULL;
     }
