@@ -85,10 +85,17 @@ static void test_saved_leaves_nothing(Fixture *fixture, gconstpointer data) {
     studio_document_free(document);
 }
 
-// How often a test kills: FROND_KILLS, else few.
+// Whether the child has not ended by itself. What it does may take long on a busy machine, but it
+// ends where a file cannot be written or a check fails.
+static bool lives(pid_t child) {
+    return waitpid(child, NULL, WNOHANG) == 0;
+}
+
+// How often a test kills: FROND_KILLS, else 100 times, or few where sanitizers make it slow.
 static int count_kills(void) {
     const char *given = g_getenv("FROND_KILLS");
-    return given == NULL ? 10 : atoi(given);
+    int usual = g_getenv("FROND_SANITIZED") == NULL ? 100 : 10;
+    return given == NULL ? usual : atoi(given);
 }
 
 // Edits a document in a process of its own until it is killed.
@@ -114,6 +121,7 @@ static void test_killed(Fixture *fixture, gconstpointer data) {
             edit_for_ever(fixture);
         }
         while (!has_note(fixture)) {
+            g_assert_true(lives(child));
             g_usleep(200);
         }
         g_assert_cmpuint(count_left(fixture), ==, 0); // it still runs
@@ -234,6 +242,7 @@ static void test_killed_saving(Fixture *fixture, gconstpointer data) {
         }
         int wanted = first + g_test_rand_int_range(0, 2 * SAVE_EVERY + 1);
         while (MAX(done->copied, done->saved) < wanted) {
+            g_assert_true(lives(child));
             g_usleep(100);
         }
         g_usleep((gulong)g_test_rand_int_range(0, 9000));
