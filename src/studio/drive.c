@@ -110,9 +110,9 @@ static void said(StudioDrive *drive, char *const *words, const char *rest) {
 
 static void let_messages_stay(StudioDrive *drive, char *const *words, const char *rest) {
     (void)words;
-    (void)rest;
-    studio_messages_stay(drive->window->over_picture);
-    studio_messages_stay(drive->window->over_all);
+    gboolean stays = strcmp(rest, "no") != 0;
+    studio_messages_stay(drive->window->over_picture, stays);
+    studio_messages_stay(drive->window->over_all, stays);
     studio_answer("ok");
 }
 

@@ -84,8 +84,11 @@ void studio_messages_say(StudioMessages *messages, const char *text, bool can_un
     }
 }
 
-void studio_messages_stay(StudioMessages *messages) {
-    messages->stays = TRUE;
+void studio_messages_stay(StudioMessages *messages, gboolean stays) {
+    messages->stays = stays;
+    if (!stays && messages->toast != NULL && messages->timer == 0) {
+        messages->timer = g_timeout_add_seconds(SAID_SECONDS, on_said_long_enough, messages);
+    }
 }
 
 void studio_messages_forget_undo(StudioMessages *messages) {

@@ -16,8 +16,9 @@ GtkWidget *studio_messages_widget(const StudioMessages *messages);
 /// Tells a line for some seconds, in place of the last one; with a button that undoes where
 /// `can_undo`.
 void studio_messages_say(StudioMessages *messages, const char *text, bool can_undo);
-/// From now on messages go only for others: for who reads slowly, as a program on a busy machine.
-void studio_messages_stay(StudioMessages *messages);
+/// Whether messages go only for others from now on: for who reads slowly, as a program on a busy
+/// machine.
+void studio_messages_stay(StudioMessages *messages, gboolean stays);
 /// Takes the button away, as it would undo something else now.
 void studio_messages_forget_undo(StudioMessages *messages);
 /// What is told now; NULL: nothing. Borrowed.

@@ -56,6 +56,12 @@ static void on_unrealize(GtkGLArea *area, gpointer data) {
     }
 }
 
+// The view is turned, but its button is held where it was: there is nothing to draw.
+static bool is_held_still(const StudioViewport *viewport) {
+    double rested = (double)(g_get_monotonic_time() - viewport->moved) * 1e-6;
+    return viewport->is_moving && rested > rest_seconds && !viewport->display.has_wind;
+}
+
 static gboolean on_tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data) {
     (void)clock;
     (void)data;
@@ -64,8 +70,8 @@ static gboolean on_tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data) 
     if (viewport->is_moving && !viewport->is_dragging && rested > rest_seconds) {
         viewport->is_moving = false;
     }
-    if (viewport->is_moving && rested > rest_seconds && !viewport->display.has_wind) {
-        return G_SOURCE_CONTINUE; // held still: nothing to draw
+    if (is_held_still(viewport)) {
+        return G_SOURCE_CONTINUE;
     }
     gtk_gl_area_queue_render(GTK_GL_AREA(widget));
     return G_SOURCE_CONTINUE;
@@ -244,7 +250,8 @@ void studio_viewport_stamp(StudioViewport *viewport, gint64 *stamp) {
 }
 
 bool studio_viewport_is_done(StudioViewport *viewport) {
-    return viewport->was_done || viewport->display.has_wind;
+    bool is_held = viewport->is_dragging && is_held_still(viewport);
+    return viewport->was_done || viewport->display.has_wind || is_held;
 }
 
 StudioPace studio_viewport_pace(StudioViewport *viewport) {

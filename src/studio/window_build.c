@@ -162,7 +162,7 @@ void studio_window_poll(StudioWindow *window) {
 bool studio_window_is_idle(StudioWindow *window) {
     double fraction, seconds;
     if (window->document != NULL && studio_window_is_sketching(window)) {
-        return studio_sketch_panel_is_idle(window->sketch);
+        return window->exports == 0 && studio_sketch_panel_is_idle(window->sketch);
     }
     return window->document == NULL ||
            (window->shown == window->asked && studio_string_panel_is_idle(window->string) &&

@@ -1,5 +1,6 @@
 """One studio for all driven tests, and the folders they use."""
 
+import contextlib
 import os
 import pathlib
 import shutil
@@ -8,6 +9,7 @@ import tempfile
 import studio_driver as driver
 
 SOURCE = pathlib.Path(os.environ.get("FROND_SOURCE", "."))
+MOST_LOOKS = 600  # at what has yet to appear, each after pictures that the program has drawn
 PICTURES = pathlib.Path(os.environ.get("FROND_PICTURES", "build/studio-pictures"))
 
 
@@ -28,12 +30,17 @@ BEGINNING = """<?xml version="1.0" encoding="UTF-8"?>
 
 
 class Home:
-    """A folder that is gone in the end, with a studio in it and pictures of what that shows."""
+    """A folder that is gone in the end, with a studio in it and pictures of what that shows. Nothing
+    moves by itself: what is there can be clicked."""
 
     def __init__(self):
         self.home = tempfile.mkdtemp(prefix="frond-studio-")
         self.studio = None
         PICTURES.mkdir(parents=True, exist_ok=True)
+        settings = os.path.join(self.home, "config", "gtk-4.0")
+        os.makedirs(settings)
+        with open(os.path.join(settings, "settings.ini"), "w", encoding="utf-8") as file:
+            file.write("[Settings]\ngtk-enable-animations=0\n")
 
     def write(self, name, text):
         """Writes a document, and returns its file."""
@@ -52,6 +59,58 @@ class Home:
     def picture(self, name):
         self.studio.wait()
         self.studio.ask(f"picture {PICTURES / name}.png")
+
+    def look(self, command, is_it):
+        """Asks until the answer is right, and returns it."""
+        for _ in range(MOST_LOOKS):
+            try:
+                answer = self.studio.ask(command)
+            except AssertionError as error:
+                answer = str(error)
+            if is_it(answer):
+                return answer
+            self.studio.ask("hear")
+        raise AssertionError(f"'{command}' is still answered with '{answer}'")
+
+    def appears(self, name):
+        """Where something is, once it is there and stays at its place."""
+        last = self.look(f"where {name}", lambda answer: "error" not in answer)
+        for _ in range(MOST_LOOKS):
+            self.studio.ask("hear")
+            now = self.look(f"where {name}", lambda answer: "error" not in answer)
+            if now == last:
+                return self.studio.middle(name)
+            last = now
+        raise AssertionError(f"{name} does not come to rest")
+
+    def click(self, name):
+        """A hand is not as fast as xdotool, whose press and release are one for GTK's menus."""
+        self.studio.go(self.appears(name))
+        self.studio.pointer("mousedown", 1)
+        self.studio.pointer("mouseup", 1)
+
+    def is_there(self, name):
+        try:
+            return bool(self.studio.where(name))
+        except AssertionError:
+            return False
+
+    def opens(self, button, name):
+        """Lets a button pop something up, again if the click met what was just going away."""
+        for _ in range(20):
+            self.click(button)
+            for _ in range(20):
+                if self.is_there(name):
+                    return
+                self.studio.ask("hear")
+        raise AssertionError(f"{button} shows no {name}")
+
+    @contextlib.contextmanager
+    def messages_stay(self):
+        """What is said meanwhile stays, as a busy machine would not read it in time."""
+        self.studio.ask("stay")
+        yield
+        self.studio.ask("stay no")
 
     def close(self):
         shutil.rmtree(self.home)

@@ -85,10 +85,8 @@ def test_device(run):
             file.write(f"move {0.02 * step} {0.1 * step} 1 {0.05 * step}\nheight {0.01 * step} {0.05 * step}\n")
         file.write("up\n")
     studio.ask(f"do sketch-listen('{lines}')")
-    for _ in range(50):
-        studio.wait()
-        if studio.state()["steps"] > 0:
-            break
+    run.look("state", lambda answer: json.loads(answer)["steps"] > 0)
+    studio.wait()
     assert studio.state()["steps"] == 1, studio.state()
     studio.click(studio.middle("sketch-board", 0.5, 0.5))
     for key in ("space", "Up", "Up", "Right", "Page_Up", "Up", "space"):

@@ -2,12 +2,15 @@
 
 import json
 import os
+import select
 import shutil
 import subprocess
 import sys
 import time
 import traceback
 
+ANSWER_SECONDS = 240  # however busy the machine is
+MOST_TRIES = 600  # to take a picture, a tenth of a second apart
 STUDIO = os.environ.get("FROND_STUDIO", "build/src/studio/frond-studio")
 
 
@@ -107,16 +110,23 @@ class Studio:
 
     def ask(self, command):
         """Sends a command and returns its answer; an error is an exception."""
-        for _ in range(30):
+        for _ in range(MOST_TRIES):
             self.program.stdin.write(command + "\n")
             self.program.stdin.flush()
-            answer = self.program.stdout.readline().strip()
+            answer = self.answer(command)
             if answer != "error no picture":
                 break
             time.sleep(0.1)  # the window is about to be laid out anew
         if answer == "" or answer.startswith("error"):
             raise AssertionError(f"'{command}' was answered with '{answer}'{self.last_words()}")
         return answer
+
+    def answer(self, command):
+        """The next line that is told. Each command gives one, so none is left in the buffer."""
+        if not select.select([self.program.stdout], [], [], ANSWER_SECONDS)[0]:
+            self.kill()  # what it answers later would be taken for another's
+            raise AssertionError(f"'{command}' had no answer within {ANSWER_SECONDS} s")
+        return self.program.stdout.readline().strip()
 
     def last_words(self):
         if self.program.poll() is None:
@@ -184,7 +194,7 @@ class Studio:
     def quit(self):
         self.ask("quit")
         self.program.stdin.close()
-        return self.program.wait(timeout=30)
+        return self.program.wait(timeout=ANSWER_SECONDS)
 
     def kill(self):
         self.program.kill()

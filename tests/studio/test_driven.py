@@ -5,7 +5,7 @@ import sys
 
 import studio_driver as driver
 from driven_plant import (
-    test_curve, test_escape, test_flower, test_hand, test_keys, test_link, test_lsystem,
+    test_curve, test_elsewhere, test_escape, test_flower, test_hand, test_keys, test_link, test_lsystem,
     test_material, test_own_wind, test_patch, test_preset, test_preset_files, test_repeat,
     test_slider, test_wind)
 from driven_run import BEGINNING, PICTURES, Run, SOURCE
@@ -75,6 +75,7 @@ def test_welcome(run):
 def test_view(run):
     """the view turns, zooms and picks"""
     studio = run.studio
+    studio.drag([600, 500], [700, 520], is_cancelled=True)
     studio.drag([600, 500], [760, 540])
     studio.go([640, 480])
     studio.pointer("click", "--repeat", 3, 4)
@@ -170,7 +171,7 @@ TESTS = [
     test_preset_files,
     test_grove, test_levels, test_arrange, test_rows, test_export_changed, test_export_one,
     test_light, test_lamps, test_patch, test_own_wind, test_sketch, test_device, test_flower,
-    test_link, test_escape, test_preset, test_slider, test_material, test_keys, test_wind,
+    test_link, test_elsewhere, test_escape, test_preset, test_slider, test_material, test_keys, test_wind,
     test_curve, test_view, test_hand, test_mistake, test_undo, test_save, test_export,
     test_dialogs, test_killed]
 

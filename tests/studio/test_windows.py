@@ -10,18 +10,11 @@ import struct
 import studio_driver as driver
 from driven_run import BEGINNING, Home, PICTURES, SOURCE
 
-MOST_LOOKS = 600  # at what has yet to appear, each after pictures that the program has drawn
-
-
 class Run(Home):
-    """A studio on a display of its own. Nothing moves by itself: what is there can be clicked."""
+    """A studio on a display of its own."""
 
     def __init__(self):
         super().__init__()
-        settings = os.path.join(self.home, "config", "gtk-4.0")
-        os.makedirs(settings)
-        with open(os.path.join(settings, "settings.ini"), "w", encoding="utf-8") as file:
-            file.write("[Settings]\ngtk-enable-animations=0\n")
         self.display = driver.Display(1400, 900)
         self.start()
         self.file = self.write("flower.frond", BEGINNING)
@@ -36,51 +29,6 @@ class Run(Home):
         with open(os.path.join(self.home, "config", "frond", "studio.ini"), encoding="utf-8") as file:
             lines = [line.strip().split("=", 1) for line in file if "=" in line]
         return dict(lines)
-
-    def look(self, command, is_it):
-        """Asks until the answer is right, and returns it."""
-        for _ in range(MOST_LOOKS):
-            try:
-                answer = self.studio.ask(command)
-            except AssertionError as error:
-                answer = str(error)
-            if is_it(answer):
-                return answer
-            self.studio.ask("hear")
-        raise AssertionError(f"'{command}' is still answered with '{answer}'")
-
-    def appears(self, name):
-        self.look(f"where {name}", lambda answer: "error" not in answer)
-        self.studio.ask("hear")
-        return self.studio.middle(name)
-
-    def click(self, name):
-        """A hand is not as fast as xdotool, whose press and release are one for GTK's menus."""
-        self.studio.go(self.appears(name))
-        self.studio.pointer("mousedown", 1)
-        self.studio.pointer("mouseup", 1)
-
-    def is_there(self, name):
-        try:
-            return bool(self.studio.where(name))
-        except AssertionError:
-            return False
-
-    def opens(self, button, name):
-        """Lets a button pop something up, again if the click met what was just going away."""
-        for _ in range(20):
-            self.click(button)
-            for _ in range(20):
-                if self.is_there(name):
-                    return
-                self.studio.ask("hear")
-        raise AssertionError(f"{button} shows no {name}")
-
-    def quit(self):
-        """Ends the studio, however long that takes on a busy machine."""
-        self.studio.ask("quit")
-        self.studio.program.stdin.close()
-        return self.studio.program.wait()
 
     def keys(self, *names):
         self.studio.pointer("key", *names)
@@ -331,7 +279,7 @@ def test_preferences(run):
     run.click("Dark")
     run.keys("Escape")
     run.no_dialog()
-    assert run.quit() == 0
+    assert run.studio.quit() == 0
     kept = run.settings()
     assert kept["grid"] == "0" and kept["shadow"] == "0" and kept["budget"] == "0", kept
     assert kept["dark"] == "1", kept
