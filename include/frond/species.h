@@ -108,7 +108,8 @@
     X(POINTS, envelope, "", 0, 1000000, "m", "",                                                   \
       "radius,height … of the outline that it grows within; empty: unbounded")                     \
     X(TEXT, envelope_file, "", 0, 0, "", "",                                                       \
-      "closed mesh to grow within instead, about the seed: .obj .stl .gltf .glb")                  \
+      "closed mesh to grow within instead, about the seed: .stl with z up, .obj .gltf .glb with "  \
+      "y up")                                                                                      \
     X(SWITCH, collide, "yes", 0, 1, "", "", "keeps off what is in the way and other branches")     \
     X(INTEGER, box, "3", 1, 9, "", "", "cells of free space around a new tip: odd")                \
     X(CHOICE, keeps_off, "tip", 0, 0, "", "tip internode",                                         \

@@ -20,7 +20,8 @@
     X(VECTOR, size, "1, 1, 1", 0.0001, 1000000, "m", "",                                           \
       "extent along x, y and z; of a mesh the factors of its own size; of a sweep its width, "     \
       "nothing, and its height over its line")                                                     \
-    X(TEXT, file, "", 0, 0, "", "", "file of triangles or surfaces for shape=mesh")                \
+    X(TEXT, file, "", 0, 0, "", "",                                                                \
+      "file of triangles or surfaces for shape=mesh: .obj .gltf .glb with y up, others with z up") \
     X(REAL, tilt, "0", -360, 360, "deg", "", "turned about the x axis first …")                    \
     X(REAL, turn, "0", -360000, 360000, "deg", "", "… and then about the vertical")                \
     X(TEXT, material, "", 0, 0, "", "", "id of its material; empty: grey")                         \
@@ -33,8 +34,9 @@
 /// A `<terrain>`: what plants stand on.
 #define FR_TERRAIN_PARAMS(X)                                                                       \
     X(TEXT, file, "", 0, 0, "", "",                                                                \
-      "a height map (.png, its top towards +y, white is high) or a mesh (.obj .stl .gltf .glb "    \
-      ".igs)")                                                                                     \
+      "a height map (.png, its top towards +y, white is high) or a mesh (.obj .gltf .glb with y "  \
+      "up, .stl "                                                                                  \
+      ".igs with z up)")                                                                           \
     X(VECTOR, at, "0, 0, 0", -1000000, 1000000, "m", "",                                           \
       "the middle of a height map's base, or the origin of a mesh")                                \
     X(VECTOR, size, "1, 1, 1", 0.0001, 1000000, "m", "",                                           \
