@@ -354,6 +354,27 @@ void studio_curve_box_show(StudioCurveBox *box, const char *points, int kind) {
     gtk_widget_queue_draw(GTK_WIDGET(box));
 }
 
+char *studio_curve_box_text(StudioCurveBox *box) {
+    return box->points == NULL ? NULL : studio_points_write(box->points);
+}
+
+gboolean studio_curve_box_put(StudioCurveBox *box, const char *text) {
+    GArray *points = studio_points_read(text);
+    if (points == NULL) {
+        return FALSE;
+    }
+    g_clear_pointer(&box->points, g_array_unref);
+    box->points = points;
+    box->chosen = box->grabbed = FR_NONE;
+    fit(box);
+    emit(box, FALSE);
+    return TRUE;
+}
+
+gboolean studio_curve_box_is_function(StudioCurveBox *box) {
+    return box->is_function;
+}
+
 static void studio_curve_box_finalize(GObject *object) {
     g_clear_pointer(&STUDIO_CURVE_BOX(object)->points, g_array_unref);
     G_OBJECT_CLASS(studio_curve_box_parent_class)->finalize(object);

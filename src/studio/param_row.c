@@ -2,6 +2,7 @@
 
 #include "studio/accessible.h"
 #include "studio/curve_box.h"
+#include "studio/curve_menu.h"
 #include "studio/model/keys.h"
 #include "studio/model/materials.h"
 #include "studio/model/values.h"
@@ -262,6 +263,11 @@ static void make_below(StudioParamRow *row, const char *title) {
         g_free(name);
         g_signal_connect(row->curve, "edited", G_CALLBACK(on_curve), row);
         gtk_box_append(GTK_BOX(row), row->curve);
+        GtkWidget *menu = studio_curve_menu_new(STUDIO_CURVE_BOX(row->curve));
+        name = g_strconcat(row->attribute, "-menu", NULL);
+        gtk_widget_set_name(menu, name);
+        g_free(name);
+        studio_param_row_put(row, menu);
     }
     row->note = gtk_label_new(NULL);
     gtk_label_set_xalign(GTK_LABEL(row->note), 0);

@@ -2,6 +2,7 @@
 /// elements.
 #include "studio/model/values.h"
 
+#include "frond/curve.h"
 #include "studio.h"
 #include "studio/model/camera.h"
 #include "studio/model/place.h"
@@ -163,6 +164,28 @@ static void test_settings(void) {
     g_free(folder);
 }
 
+// Each curve that Frond knows can be begun from: its points, as they are written, make it again.
+static void test_shapes(void) {
+    size_t count;
+    const char *const *names = fr_curve_builtin_names(&count);
+    g_assert_cmpuint(count, >, 5);
+    for (size_t i = 0; i < count; i++) {
+        char *text = studio_points_of_shape(names[i]);
+        GArray *points = studio_points_read(text);
+        FrCurve *curve = fr_curve_builtin(names[i]);
+        g_assert_nonnull(points);
+        g_assert_cmpuint(points->len, ==, fr_curve_point_count(curve));
+        for (guint k = 0; k < points->len; k++) {
+            const double *point = &g_array_index(points, double, 2 * k);
+            g_assert_cmpfloat(fabs(point[1] - fr_curve_eval(curve, point[0])), <, 0.01);
+        }
+        fr_curve_unref(curve);
+        g_array_unref(points);
+        g_free(text);
+    }
+    g_assert_null(studio_points_of_shape("no such shape"));
+}
+
 static void test_places(void) {
     StudioDocument *document = open_example("examples/sunflower.frond");
     const FrContents *contents = studio_document_contents(document);
@@ -186,6 +209,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/values/numbers have the digits a handle needs", test_numbers);
     g_test_add_func("/studio/values/sliders hold every value within its range", test_ranges);
     g_test_add_func("/studio/values/points are added, moved and kept in order", test_points);
+    g_test_add_func("/studio/values/a curve begins as one that Frond knows", test_shapes);
     g_test_add_func("/studio/values/a framed box is within the picture", test_camera);
     g_test_add_func("/studio/values/who goes away from plants stays above the floor", test_floor);
     g_test_add_func("/studio/values/settings are remembered", test_settings);

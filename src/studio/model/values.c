@@ -1,5 +1,7 @@
 #include "studio/model/values.h"
 
+#include "frond/curve.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -159,6 +161,23 @@ char *studio_points_write(const GArray *points) {
         g_free(y);
     }
     return g_string_free(text, FALSE);
+}
+
+char *studio_points_of_shape(const char *name) {
+    FrCurve *curve = fr_curve_builtin(name);
+    if (curve == NULL) {
+        return NULL;
+    }
+    GArray *points = g_array_new(FALSE, FALSE, 2 * sizeof(double));
+    for (size_t i = 0; i < fr_curve_point_count(curve); i++) {
+        double point[2];
+        fr_curve_point(curve, i, point);
+        g_array_append_val(points, point);
+    }
+    char *text = studio_points_write(points);
+    g_array_unref(points);
+    fr_curve_unref(curve);
+    return text;
 }
 
 void studio_points_move(GArray *points, guint index, double x, double y, bool is_function) {

@@ -26,6 +26,8 @@ double studio_value_step(const FrParam *param, double min, double max);
 
 /// The points "x,y x,y …" of a text (double[2]); NULL if it is something else.
 GArray *studio_points_read(const char *text);
+/// Those of a built-in curve, or NULL. Free with g_free().
+char *studio_points_of_shape(const char *name);
 /// Free with g_free().
 char *studio_points_write(const GArray *points);
 /// Moves a point; of a curve (`is_function`) it stays between its neighbours, the ends keep x.
