@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-static const double rest_seconds = 0.2; // without a move the view rests
+// Without a move the view rests; with the button held a little later, as hands halt in turning.
+static const double rest_seconds = 0.2, held_seconds = 0.4;
 
 enum { SIGNAL_READY, SIGNAL_DRAWN, SIGNAL_COUNT };
 
@@ -67,7 +68,7 @@ static gboolean on_tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data) 
     (void)data;
     StudioViewport *viewport = STUDIO_VIEWPORT(widget);
     double rested = (double)(g_get_monotonic_time() - viewport->moved) * 1e-6;
-    if (viewport->is_moving && !viewport->is_dragging && rested > rest_seconds) {
+    if (viewport->is_moving && rested > (viewport->is_dragging ? held_seconds : rest_seconds)) {
         viewport->is_moving = false;
     }
     if (is_held_still(viewport)) {

@@ -17,9 +17,10 @@ static void test_slow(void) {
     StudioPacing pacing = studio_pacing_new();
     draw(&pacing, 40, 1e-6, 0.005, 5);
     g_assert_true(pacing.is_plain);
-    g_assert_cmpfloat(pacing.scale, ==, 1);
-    g_assert_cmpfloat(1e-6 * pacing.triangles + 0.005, <, 0.038);
-    g_assert_cmpfloat(1e-6 * pacing.triangles + 0.005, >, 0.023);
+    g_assert_cmpfloat(pacing.scale, ==, 0.5);
+    double pixels = 0.005 * pacing.scale * pacing.scale;
+    g_assert_cmpfloat(1e-6 * pacing.triangles + pixels, <, 0.038);
+    g_assert_cmpfloat(1e-6 * pacing.triangles + pixels, >, 0.023);
 }
 
 static void test_quick(void) {
@@ -33,7 +34,7 @@ static void test_quick(void) {
 static void test_floor(void) {
     StudioPacing pacing = studio_pacing_new();
     draw(&pacing, 60, 1e-4, 0.1, 5);
-    g_assert_cmpfloat(pacing.triangles, ==, 8000);
+    g_assert_cmpfloat(pacing.triangles, ==, 20000);
     g_assert_cmpfloat(pacing.scale, ==, 0.5);
     draw(&pacing, 60, 1e-7, 0.001, 5); // the machine has time again
     g_assert_cmpfloat(pacing.scale, ==, 1);

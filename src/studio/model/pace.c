@@ -3,11 +3,11 @@
 #include <math.h>
 
 static const double wanted_seconds = 0.030;
-static const double least_triangles = 8000, most_triangles = 4e6;
+static const double least_triangles = 20000, most_triangles = 4e6;
 static const double plain_below = 150000; // triangles: too few for light by pixels
 // Sides of the picture, and the triangles below which the next smaller one serves better. A larger
 // one comes back only at twice as many: it takes time itself.
-static const struct { double scale, least; } scales[] = {{1, 16000}, {0.75, 11000}, {0.5, 0}};
+static const struct { double scale, least; } scales[] = {{1, 40000}, {0.75, 28000}, {0.5, 0}};
 
 StudioPacing studio_pacing_new(void) {
     return (StudioPacing){.triangles = 60000, .scale = 1, .is_plain = true, .rich_from = 400000};

@@ -1,7 +1,7 @@
 /// @file pace.h
 /// How much may be drawn while a view moves, by how long the last pictures took: machines differ a
-/// hundredfold. Triangles go first, then pixels; light is worked out for pixels only where there is
-/// time for it, else for vertices.
+/// hundredfold. Fewer pixels make room for triangles before crowns get thin; light is worked out
+/// for pixels only where there is time for it, else for vertices.
 #pragma once
 
 #include "frond/api.h"

@@ -8,9 +8,10 @@
 #include <string.h>
 
 enum {
-    COARSE_LEVEL = 4,
-    COARSE_SIDES = 8,
-    COARSE_NODES = 10000, // of one plant
+    COARSE_LEVEL = 4,      // of leaves
+    COARSE_WOOD_LEVEL = 2, // without relief; a coarser one would straighten a curved trunk
+    COARSE_SIDES = 12,     // 5 at that level
+    COARSE_NODES = 4000,   // of one plant
     ALL_COARSE_NODES = 40000,
     LEAST_COARSE_NODES = 32,
     COARSER = 5, // times, from one level to the next
@@ -352,11 +353,11 @@ void studio_view_take_coarse(StudioView *view, StudioView *old) {
 
 static FrMesh *coarse_wood(const FrPlant *plant, uint32_t most, const FrContext *context) {
     FrSkinParams params = fr_skin_default();
-    params.lod = COARSE_LEVEL;
+    params.lod = COARSE_WOOD_LEVEL;
     params.min_sides = 3;
     params.max_sides = COARSE_SIDES;
     params.side_length = 0.1;
-    params.bend = 20 * G_PI / 180;
+    params.bend = 10 * G_PI / 180; // 25° at that level
     params.foliage = false;
     params.collar = 0;
     uint16_t *flags = g_new(uint16_t, plant->axes.count + 1);

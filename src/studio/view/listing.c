@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double most_enlarged = 6;
+static const double most_enlarged = 3;    // larger ones look like another plant
 static const double least_enlarged = 1.3; // the limit for leaves as large as their plant, as grass
 static const double wood_part = 0.3;      // of the triangles
 static const double still_part = 0.15;    // that obstacles may have, to be fine

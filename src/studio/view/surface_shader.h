@@ -155,7 +155,7 @@ static const char studio_surface_vertex[] =
     "}\n"
 
 /// All light that a surface throws to the eye, by how much of the sun it sees.
-#define STUDIO_ALL_LIGHT                                                                            \
+#define STUDIO_ALL_LIGHT                                                                           \
     "vec3 all_light(Skin s, vec3 base, float open) {\n"                                             \
     "    vec3 direct = thrown(s, sun, sun_colour * open) + from_lamps(s);\n"                        \
     "    vec3 bounce = from_sky(reflect(-s.v, s.n));\n"                                             \
@@ -164,18 +164,9 @@ static const char studio_surface_vertex[] =
     "            (s.matt * from_sky(s.n) + s.through * from_sky(-s.n));\n"                          \
     "    float shine = s.coat > 0.0 ? fresnel(s.coat, s.out_cosine) * (1.0 - 0.6 * s.width) : "     \
     "0.0;\n"                                                                                        \
-    "    soft += shine * open * bounce;\n" /* what stands around is darker than the sky */ /* what  \
-                                                                                              hides \
-                                                                                              the   \
-                                                                                              sun   \
-                                                                                              hides \
-                                                                                              about \
-                                                                                              half  \
-                                                                                              of    \
-                                                                                              the   \
-                                                                                              sky,  \
-                                                                                              too   \
-                                                                                            */      \
+    /* What stands around is darker than the sky; of a road or a wall one sees more than of */      \
+    /* leaves within a crown. What hides the sun hides about half of the sky, too. */              \
+    "    soft += shine * (is_blade ? open : 0.4 + 0.6 * open) * bounce;\n"                          \
     "    return direct + soft * (0.5 + 0.5 * open);\n"                                              \
     "}\n"
 
