@@ -59,23 +59,27 @@ void fr_growth_tell_bare(const FrGrowth *growth, const FrSeed *seeds, const FrCo
 
 // ---- before: seeds on each other ----------------------------------------------------------------
 
-/// A seed in a square of the ground as wide as it looks around.
-typedef struct Square {
-    double x, y; ///< numbers of the square
+/// A seed in a cube as wide as it looks around.
+typedef struct Cube {
+    double at[3]; ///< numbers of the cube
     const FrSeed *seed;
-} Square;
+} Cube;
 
-static int compare_squares(const void *a, const void *b) {
-    const Square *p = a, *q = b;
-    return p->x != q->x ? (p->x > q->x) - (p->x < q->x) : (p->y > q->y) - (p->y < q->y);
+static int compare_cubes(const void *a, const void *b) {
+    const Cube *p = a, *q = b;
+    int order = 0;
+    for (int axis = 0; axis < 3 && order == 0; axis++) {
+        order = (p->at[axis] > q->at[axis]) - (p->at[axis] < q->at[axis]);
+    }
+    return order;
 }
 
-/// The first of sorted squares that is not before one.
-static uint32_t first_from(const Square *squares, uint32_t count, Square least) {
+/// The first of sorted cubes that is not before one.
+static uint32_t first_from(const Cube *cubes, uint32_t count, Cube least) {
     uint32_t low = 0, high = count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (compare_squares(&squares[middle], &least) < 0) {
+        if (compare_cubes(&cubes[middle], &least) < 0) {
             low = middle + 1;
         } else {
             high = middle;
@@ -92,13 +96,16 @@ static bool is_near(const FrSeed *a, const FrSeed *b, double reach) {
     return a != b && square < reach * reach;
 }
 
-static bool has_neighbour(const Square *squares, uint32_t count, const Square *own, double reach) {
+/// Cubes that are above each other follow each other.
+static bool has_neighbour(const Cube *cubes, uint32_t count, const Cube *own, double reach) {
     bool has_any = false;
-    for (int side = -1; side <= 1 && !has_any; side++) {
-        double x = own->x + side;
-        uint32_t i = first_from(squares, count, (Square){x, own->y - 1, NULL});
-        for (; i < count && squares[i].x == x && squares[i].y <= own->y + 1 && !has_any; i++) {
-            has_any = is_near(own->seed, squares[i].seed, reach);
+    for (int column = 0; column < 9 && !has_any; column++) {
+        double x = own->at[0] + column / 3 - 1, y = own->at[1] + column % 3 - 1;
+        uint32_t i = first_from(cubes, count, (Cube){{x, y, own->at[2] - 1}, NULL});
+        for (; i < count && cubes[i].at[0] == x && cubes[i].at[1] == y &&
+               cubes[i].at[2] <= own->at[2] + 1 && !has_any;
+             i++) {
+            has_any = is_near(own->seed, cubes[i].seed, reach);
         }
     }
     return has_any;
@@ -111,23 +118,24 @@ static double room_of(const FrReadySpecies *species, double width) {
 
 void fr_seeds_tell_crowded(const FrReadySpecies *species, double width, const FrSeed *seeds,
                            uint32_t count, const FrContext *context) {
-    Square *squares = g_new(Square, (size_t)count + 1);
+    Cube *cubes = g_new(Cube, (size_t)count + 1);
     for (uint32_t i = 0; i < count; i++) {
-        squares[i] =
-            (Square){floor(seeds[i].at[0] / width), floor(seeds[i].at[1] / width), &seeds[i]};
+        const double *at = seeds[i].at;
+        cubes[i] =
+            (Cube){{floor(at[0] / width), floor(at[1] / width), floor(at[2] / width)}, &seeds[i]};
     }
-    qsort(squares, count, sizeof *squares, compare_squares);
+    qsort(cubes, count, sizeof *cubes, compare_cubes);
     const FrSeed *first = NULL;
     uint32_t crowded = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const FrSeed *seed = squares[i].seed;
+        const FrSeed *seed = cubes[i].seed;
         double reach = room_of(&species[seed->species], width);
-        if (reach > 0 && has_neighbour(squares, count, &squares[i], reach)) {
+        if (reach > 0 && has_neighbour(cubes, count, &cubes[i], reach)) {
             crowded++;
             first = first == NULL || seed < first ? seed : first;
         }
     }
-    g_free(squares);
+    g_free(cubes);
     if (first != NULL) {
         fr_diags_add(context->diags, FR_WARNING, "seeds-together", first->span,
                      "%u of %u seeds stand so near to others that their first internodes are in "

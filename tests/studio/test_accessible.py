@@ -1,6 +1,7 @@
 """The studio for those who see little or use no pointer: what is told to screen readers, and keys."""
 
 import re
+import time
 
 import studio_driver as driver
 from driven_run import Home, SOURCE
@@ -60,13 +61,29 @@ def is_container(node):
         any(is_named(child) for child in inner) or not any(child["focusable"] for child in inner))
 
 
-def nameless(tree):
-    return {" / ".join(path[-5:]) for node, path in nodes(tree)
-            if node["focusable"] and not is_named(node) and not is_container(node)}
+def read_until(run, is_told):
+    """What is told: what has just come gets its words a moment later."""
+    for _ in range(40):
+        tree = run.bus.read()
+        if is_told(tree):
+            break
+        time.sleep(0.25)
+    return tree
+
+
+def nameless(run, but="nothing"):
+    """Paths of what keeps having no name; without those that hold a word."""
+    def left(tree):
+        return {" / ".join(path[-5:]) for node, path in nodes(tree)
+                if node["focusable"] and not is_named(node) and not is_container(node)
+                and but not in " / ".join(path[-5:])}
+    return left(read_until(run, lambda tree: not left(tree)))
 
 
 def told_of(run, name):
-    found = [node for node, _ in nodes(run.bus.read()) if node["name"] == name]
+    def called(tree):
+        return [node for node, _ in nodes(tree) if node["name"] == name]
+    found = called(read_until(run, called))
     assert found, f"nothing is called {name}"
     return found[0]
 
@@ -74,22 +91,22 @@ def told_of(run, name):
 def test_names(run):
     """whatever can have the keyboard has a name, in every mode"""
     studio = run.studio
-    found = nameless(run.bus.read())
+    found = nameless(run)
     run.open(run.file)
     studio.ask("do select::thick")
     studio.wait()
-    found |= nameless(run.bus.read())
+    found |= nameless(run)
     for dialog in ("export", "preferences"):
         studio.ask("do " + dialog)
         studio.wait()
-        found |= {path for path in nameless(run.bus.read()) if "GtkSearchEntry" not in path}
+        found |= nameless(run, but="GtkSearchEntry")
         studio.ask("close-dialog")
     for example in ("strokes", "room-bushes"):
         run.open(SOURCE / "examples" / f"{example}.frond")
         if example == "strokes":
             studio.ask("do sketch")
             studio.wait()
-        found |= nameless(run.bus.read())
+        found |= nameless(run)
         if example == "strokes":
             studio.ask("do sketch")
     assert not found, "\n".join(sorted(found))
