@@ -7,7 +7,7 @@
 // Without a move the view rests; with the button held a little later, as hands halt in turning.
 static const double rest_seconds = 0.2, held_seconds = 0.4;
 
-enum { SIGNAL_READY, SIGNAL_DRAWN, SIGNAL_COUNT };
+enum { SIGNAL_READY, SIGNAL_DRAWN, SIGNAL_WOKEN, SIGNAL_COUNT };
 
 static guint signals[SIGNAL_COUNT];
 
@@ -84,6 +84,7 @@ void studio_viewport_wake(StudioViewport *viewport) {
     }
     viewport->was_done = false;
     gtk_gl_area_queue_render(GTK_GL_AREA(viewport));
+    g_signal_emit(viewport, signals[SIGNAL_WOKEN], 0);
 }
 
 static void on_resize(GtkGLArea *area, int width, int height, gpointer data) {
@@ -282,6 +283,8 @@ static void studio_viewport_class_init(StudioViewportClass *class) {
         g_signal_new("ready", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
     signals[SIGNAL_DRAWN] =
         g_signal_new("drawn", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+    signals[SIGNAL_WOKEN] =
+        g_signal_new("woken", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
     studio_viewport_add_signals(type);
 }
 

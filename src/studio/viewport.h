@@ -13,6 +13,7 @@ G_DECLARE_FINAL_TYPE(StudioViewport, studio_viewport, STUDIO, VIEWPORT, GtkGLAre
 ///   "ready" ()                 it can take views now
 ///   "clicked" (double x, y)    a point of the picture was clicked, in −1 to 1
 ///   "drawn" ()                 the fine picture is done
+///   "woken" ()                 another picture is to be drawn: the view or its size may differ
 ///   "press" (double x, double y, guint modifiers) → gboolean
 ///                              the main button goes down; the first handler that returns TRUE
 ///                              gets what follows, and the view does not turn:

@@ -1,6 +1,7 @@
 /// What a window is made of.
 #include "studio/accessible.h"
 #include "studio/model/graph.h"
+#include "studio/scale_bar.h"
 #include "studio/views_menu.h"
 #include "studio/widgets.h"
 #include "studio/wind_menu.h"
@@ -354,6 +355,7 @@ static GtkWidget *make_middle(StudioWindow *window) {
     gtk_widget_set_vexpand(GTK_WIDGET(window->viewport), TRUE);
     GtkOverlay *overlay = GTK_OVERLAY(gtk_overlay_new());
     gtk_overlay_set_child(overlay, GTK_WIDGET(window->viewport));
+    studio_scale_bar_add(overlay, window->viewport); // below all bars
     window->scene = studio_scene_tool_new(window, overlay);
     window->patch = studio_patch_mode_new(window, overlay);
     window->amount = gtk_label_new("");

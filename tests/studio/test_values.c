@@ -109,6 +109,38 @@ static void test_camera(void) {
     g_assert_cmpfloat(camera.elevation, <, 0.5 * G_PI);
 }
 
+static void assert_length(double length, const char *should) {
+    char *text = studio_length_text(length);
+    g_assert_cmpstr(text, ==, should);
+    g_free(text);
+}
+
+static void test_scale(void) {
+    // At right angles from top to bottom a picture shows twice the distance.
+    StudioCamera camera = studio_camera_default();
+    camera.field_of_view = 0.5 * G_PI;
+    camera.distance = 3;
+    StudioScale scale = studio_camera_scale(&camera, 600, 120); // 100 pixels for a metre
+    g_assert_cmpfloat_with_epsilon(scale.length, 1, 1e-9);
+    g_assert_cmpfloat_with_epsilon(scale.pixels, 100, 1e-6);
+    scale = studio_camera_scale(&camera, 600, 90);
+    g_assert_cmpfloat_with_epsilon(scale.length, 0.5, 1e-9);
+    g_assert_cmpfloat_with_epsilon(scale.pixels, 50, 1e-6);
+    for (camera.distance = 0.001; camera.distance < 1e5; camera.distance *= 1.07) {
+        scale = studio_camera_scale(&camera, 700, 120);
+        g_assert_cmpfloat(scale.pixels, <, 120.001);
+        g_assert_cmpfloat(scale.pixels, >, 47.999);
+    }
+    assert_length(0.0005, "0.5\u202fmm");
+    assert_length(0.005, "5\u202fmm");
+    assert_length(0.01, "1\u202fcm");
+    assert_length(pow(10, -2), "1\u202fcm");
+    assert_length(0.5, "50\u202fcm");
+    assert_length(1, "1\u202fm");
+    assert_length(100, "100\u202fm");
+    assert_length(20000, "20\u202fkm");
+}
+
 static void test_floor(void) {
     StudioCamera camera = studio_camera_default();
     camera.target[2] = 8;
@@ -211,6 +243,8 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/values/points are added, moved and kept in order", test_points);
     g_test_add_func("/studio/values/a curve begins as one that Frond knows", test_shapes);
     g_test_add_func("/studio/values/a framed box is within the picture", test_camera);
+    g_test_add_func("/studio/values/a scale is a plain length with room in the picture",
+                    test_scale);
     g_test_add_func("/studio/values/who goes away from plants stays above the floor", test_floor);
     g_test_add_func("/studio/values/settings are remembered", test_settings);
     g_test_add_func("/studio/values/places find their elements again", test_places);

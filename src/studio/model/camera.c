@@ -143,6 +143,12 @@ double studio_camera_step(const StudioCamera *camera, double part) {
     return power * (rest >= 5 ? 5 : rest >= 2 ? 2 : 1);
 }
 
+StudioScale studio_camera_scale(const StudioCamera *camera, double height, double room) {
+    double shown = 2 * camera->distance * tan(0.5 * camera->field_of_view); // m, top to bottom
+    double length = studio_camera_step(camera, room / height);
+    return (StudioScale){.length = length, .pixels = length / shown * height};
+}
+
 bool studio_camera_meet(const StudioCamera *camera, double aspect, double x, double y,
                         const double grip[3], double hit[3]) {
     double origin[3], way[3], eye[3], steep = 0, ahead = 0;

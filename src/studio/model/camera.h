@@ -45,3 +45,13 @@ bool studio_camera_project(const StudioCamera *camera, double aspect, const doub
                            double *x, double *y);
 /// A step of 1, 2 or 5 times a power of ten that is about `part` of the height of the picture.
 double studio_camera_step(const StudioCamera *camera, double part);
+
+/// A bar that tells how large things are.
+typedef struct StudioScale {
+    double length; ///< m
+    double pixels; ///< its length in the picture, at the target
+} StudioScale;
+
+/// The longest such step that has room in so many pixels of a picture so many pixels high, both >
+/// 0.
+StudioScale studio_camera_scale(const StudioCamera *camera, double height, double room);

@@ -53,6 +53,20 @@ char *studio_vector_text(const double at[3], double span) {
     return text;
 }
 
+char *studio_length_text(double length) {
+    static const struct {
+        const char *name;
+        double in_metre, least; // of it in a metre; from how many metres on it suits
+    } units[] = {{"km", 0.001, 1000}, {"m", 1, 1}, {"cm", 100, 0.01}, {"mm", 1000, 0}};
+    size_t i = 0;
+    while (length < units[i].least * (1 - 1e-9)) { // a step is made of powers, which round
+        i++;
+    }
+    char number[G_ASCII_DTOSTR_BUF_SIZE];
+    g_ascii_formatd(number, sizeof number, "%.6g", length * units[i].in_metre);
+    return g_strdup_printf("%s\u202f%s", number, units[i].name);
+}
+
 char *studio_count_text(uint64_t count) {
     char digits[24];
     int length = g_snprintf(digits, sizeof digits, "%" G_GUINT64_FORMAT, count);

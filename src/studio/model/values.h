@@ -12,6 +12,8 @@ bool studio_numbers_read(const char *text, int count, double *numbers);
 char *studio_value_text(double value, double span);
 /// "x, y, z", each as above. Free with g_free().
 char *studio_vector_text(const double at[3], double span);
+/// A length in m with the unit that suits it: "5 mm", "20 cm", "1 m", "2 km". Free with g_free().
+char *studio_length_text(double length);
 /// A count in groups of three digits: 207 000. Free with g_free().
 char *studio_count_text(uint64_t count);
 /// The same with what is counted: "1 leaf", "12 leaves". Free with g_free().
