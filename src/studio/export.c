@@ -244,7 +244,7 @@ void studio_window_export(StudioWindow *window, const StudioOne *one) {
     }
     job->bar = gtk_progress_bar_new();
     gtk_widget_set_visible(job->bar, FALSE);
-    job->write = gtk_button_new_with_label("Export…");
+    job->write = gtk_button_new_with_label("Write…");
     gtk_widget_add_css_class(job->write, "suggested-action");
     g_signal_connect(job->write, "clicked", G_CALLBACK(on_write), job);
     GtkWidget *header = adw_header_bar_new();

@@ -6,6 +6,7 @@
 #include "studio/model/keys.h"
 #include "studio/model/materials.h"
 #include "studio/model/values.h"
+#include "studio/short_entry.h"
 #include "studio/widgets.h"
 
 #include <math.h>
@@ -37,7 +38,7 @@ static void set(StudioParamRow *row, const char *value, gboolean is_drag) {
 // ---- what the user does ------------------------------------------------------------------------
 
 static void commit_entry(StudioParamRow *row) {
-    const char *text = gtk_editable_get_text(GTK_EDITABLE(row->entry));
+    const char *text = studio_short_entry_text(row->entry);
     const char *shown = row->value != NULL ? row->value : row->param->default_text;
     double value;
     if (row->is_showing || strcmp(text, shown) == 0) {
@@ -149,7 +150,7 @@ static void on_follow(GtkButton *button, StudioParamRow *row) {
 // ---- its parts ---------------------------------------------------------------------------------
 
 static GtkWidget *make_entry(StudioParamRow *row) {
-    row->entry = gtk_entry_new();
+    row->entry = studio_short_entry_new();
     gtk_editable_set_width_chars(GTK_EDITABLE(row->entry), 10);
     gtk_editable_set_max_width_chars(GTK_EDITABLE(row->entry), 10);
     gtk_entry_set_alignment(GTK_ENTRY(row->entry), 1);
@@ -368,8 +369,8 @@ void studio_param_row_show(StudioParamRow *row, const char *value) {
     } else {
         gtk_widget_remove_css_class(GTK_WIDGET(row), "given");
     }
-    if (row->entry != NULL && strcmp(gtk_editable_get_text(GTK_EDITABLE(row->entry)), text) != 0) {
-        gtk_editable_set_text(GTK_EDITABLE(row->entry), text);
+    if (row->entry != NULL) {
+        studio_short_entry_show(row->entry, text);
     }
     double keyed;
     show_key(row, text, &keyed);

@@ -171,6 +171,7 @@ static GtkWidget *make_bar(StudioSceneTool *tool) {
     tool->hint = gtk_label_new("");
     gtk_label_set_xalign(GTK_LABEL(tool->hint), 0);
     gtk_label_set_wrap(GTK_LABEL(tool->hint), TRUE);
+    gtk_label_set_max_width_chars(GTK_LABEL(tool->hint), 48); // even lines
     gtk_widget_set_hexpand(tool->hint, TRUE);
     gtk_widget_add_css_class(tool->hint, "scene-hint");
     gtk_box_append(GTK_BOX(top), tool->hint);
@@ -238,7 +239,13 @@ void studio_scene_add_bars(StudioSceneTool *tool, GtkOverlay *overlay) {
 void studio_scene_show_hint(StudioSceneTool *tool) {
     const char *words = tool->over != STUDIO_GRIP_NONE ? studio_grip_words(tool->over)
                                                        : studio_scene_kind(tool->tool)->hint;
-    gtk_label_set_text(GTK_LABEL(tool->hint), words);
+    // No word stands alone in the last line.
+    const char *last = strrchr(words, ' ');
+    char *text = last == NULL
+                     ? g_strdup(words)
+                     : g_strdup_printf("%.*s\u00a0%s", (int)(last - words), words, last + 1);
+    gtk_label_set_text(GTK_LABEL(tool->hint), text);
+    g_free(text);
 }
 
 void studio_scene_update_bars(StudioSceneTool *tool) {

@@ -7,7 +7,7 @@ static const SceneToolKind kinds[SCENE_TOOL_COUNT] = {
     {"select", "studio-tool-select-symbolic", "Choose branches and leaves (Esc)", "",
      GDK_KEY_Escape},
     {"move", "studio-tool-move-symbolic", "Move, turn and size what stands (M)",
-     "Click a plant or an obstacle, then drag its handles, or use arrows,\n"
+     "Click a plant or an obstacle, then drag its handles, or use arrows, "
      "[ ] and + −; Delete takes it out",
      GDK_KEY_m},
     {"plant", "studio-tool-plant-symbolic", "Plant (P)",
@@ -21,7 +21,7 @@ static const SceneToolKind kinds[SCENE_TOOL_COUNT] = {
     {"road", "studio-tool-road-symbolic", "Draw a road (R)",
      "Draw its line over the ground; plants keep off it", GDK_KEY_r},
     {"envelope", "studio-tool-envelope-symbolic", "Draw the envelope of a species (E)",
-     "Draw one side of the outline that the crown shall keep within,\n"
+     "Draw one side of the outline that the crown shall keep within, "
      "beside the dashed axis",
      GDK_KEY_e},
 };

@@ -42,6 +42,23 @@ static void test_numbers(void) {
     g_free(count);
 }
 
+static void assert_short(const char *text, const char *should) {
+    char *given = studio_value_short(text);
+    g_assert_cmpstr(given, ==, should);
+    g_free(given);
+}
+
+static void test_short(void) {
+    assert_short("222.49223594996", "222.492");
+    assert_short("-0.000123456789", "-0.000123457");
+    assert_short("137.5", "137.5");
+    assert_short("123456789", "123456789");
+    assert_short("12345678.25", "12345678.25");
+    assert_short("222.49223594996(5)", "222.49223594996(5)");
+    assert_short("thick", "thick");
+    assert_short("", "");
+}
+
 static void test_ranges(void) {
     const FrParamTable *tree = fr_pgraph_table(FR_COMPONENT_TREE);
     for (size_t i = 0; i < tree->count; i++) {
@@ -239,6 +256,7 @@ static void test_places(void) {
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/studio/values/numbers have the digits a handle needs", test_numbers);
+    g_test_add_func("/studio/values/only digits behind a point are left out", test_short);
     g_test_add_func("/studio/values/sliders hold every value within its range", test_ranges);
     g_test_add_func("/studio/values/points are added, moved and kept in order", test_points);
     g_test_add_func("/studio/values/a curve begins as one that Frond knows", test_shapes);

@@ -41,6 +41,17 @@ char *studio_value_text(double value, double span) {
     return g_strdup(strcmp(text, "-0") == 0 ? "0" : text);
 }
 
+char *studio_value_short(const char *text) {
+    double value;
+    char number[G_ASCII_DTOSTR_BUF_SIZE];
+    if (strchr(text, '.') == NULL || !studio_value_is_number(text, &value)) {
+        return g_strdup(text);
+    }
+    g_ascii_formatd(number, sizeof number, "%.6g", value);
+    bool is_plain = strchr(number, 'e') == NULL && strlen(number) < strlen(text);
+    return g_strdup(is_plain ? number : text);
+}
+
 char *studio_vector_text(const double at[3], double span) {
     char *parts[3];
     for (int i = 0; i < 3; i++) {

@@ -10,6 +10,9 @@ bool studio_value_is_number(const char *text, double *value);
 bool studio_numbers_read(const char *text, int count, double *numbers);
 /// A number with no more digits than a handle needs for a span. Free with g_free().
 char *studio_value_text(double value, double span);
+/// A number as short as a narrow field needs it: to six digits, where it has more behind its point.
+/// All other texts stay as they are. Free with g_free().
+char *studio_value_short(const char *text);
 /// "x, y, z", each as above. Free with g_free().
 char *studio_vector_text(const double at[3], double span);
 /// A length in m with the unit that suits it: "5 mm", "20 cm", "1 m", "2 km". Free with g_free().
