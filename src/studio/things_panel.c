@@ -1,6 +1,7 @@
 #include "studio/things_panel.h"
 
 #include "studio/model/graph.h"
+#include "studio/model/place.h"
 
 #include <string.h>
 
@@ -98,10 +99,10 @@ static void set_things(StudioThings *list, GArray *things) {
 
 // ---- reading -----------------------------------------------------------------------------------
 
+// What it is called, or what tells it from others of its tag; NULL: nothing.
 static char *called(const FrContents *contents, uint32_t element) {
     static const char *const telling[][2] = {
-        {"edit", "at"},   {"place", "plant"},  {"row", "plants"},
-        {"view", "name"}, {"strew", "plants"}, {"obstacle", "shape"},
+        {"edit", "at"}, {"obstacle", "shape"}, {NULL, "name"}, {NULL, "plant"}, {NULL, "plants"},
     };
     const FrContentsElement *at = fr_contents_at(contents, element);
     if (at->id != NULL) {
@@ -116,25 +117,35 @@ static char *called(const FrContents *contents, uint32_t element) {
         return both;
     }
     for (size_t i = 0; i < G_N_ELEMENTS(telling); i++) {
-        if (strcmp(at->name, telling[i][0]) == 0) {
-            return fr_contents_get(contents, element, telling[i][1]);
+        bool may = telling[i][0] == NULL || strcmp(at->name, telling[i][0]) == 0;
+        char *told = may ? fr_contents_get(contents, element, telling[i][1]) : NULL;
+        if (told != NULL && *told != '\0') {
+            return told;
         }
+        g_free(told);
     }
     return NULL;
+}
+
+// Else its tag, with its number where it has others beside it.
+static char *numbered(const char *tag, uint32_t number) {
+    return number == 0 ? g_strdup(tag) : g_strdup_printf("%s %u", tag, number);
 }
 
 static GArray *read_things(const FrContents *contents) {
     GArray *things = new_things();
     guint *depths = g_new0(guint, fr_contents_count(contents));
+    uint32_t *numbers = studio_place_numbers(contents);
     for (uint32_t i = 1; i < fr_contents_count(contents); i++) {
         const FrContentsElement *at = fr_contents_at(contents, i);
         const char *tag = g_intern_string(at->name);
         char *name = called(contents, i);
         depths[i] = depths[at->parent] + 1; // which comes before it
-        Thing thing = {name != NULL ? name : g_strdup(tag), name != NULL ? tag : NULL,
+        Thing thing = {name != NULL ? name : numbered(tag, numbers[i]), name != NULL ? tag : NULL,
                        depths[i] - 1};
         g_array_append_val(things, thing);
     }
+    g_free(numbers);
     g_free(depths);
     return things;
 }

@@ -253,6 +253,25 @@ static void test_places(void) {
     studio_document_free(document);
 }
 
+static void test_place_numbers(void) {
+    StudioDocument *document = open_example("examples/forest-road.frond");
+    const FrContents *contents = studio_document_contents(document);
+    uint32_t *numbers = studio_place_numbers(contents), orders[20], count = 0;
+    g_assert_cmpuint(numbers[0], ==, 0);
+    for (uint32_t i = 0; i < fr_contents_count(contents) && count < 20; i++) {
+        if (strcmp(fr_contents_at(contents, i)->name, "order") == 0) {
+            orders[count++] = numbers[i];
+        }
+    }
+    // Each species has four of them.
+    g_assert_cmpuint(count, >=, 8);
+    for (uint32_t i = 0; i < 8; i++) {
+        g_assert_cmpuint(orders[i], ==, i % 4 + 1);
+    }
+    g_free(numbers);
+    studio_document_free(document);
+}
+
 int main(int argc, char **argv) {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/studio/values/numbers have the digits a handle needs", test_numbers);
@@ -266,5 +285,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/studio/values/who goes away from plants stays above the floor", test_floor);
     g_test_add_func("/studio/values/settings are remembered", test_settings);
     g_test_add_func("/studio/values/places find their elements again", test_places);
+    g_test_add_func("/studio/values/what has no name has a number among its like",
+                    test_place_numbers);
     return g_test_run();
 }

@@ -28,6 +28,25 @@ char *studio_place_of(const FrContents *contents, uint32_t element) {
     return place;
 }
 
+uint32_t *studio_place_numbers(const FrContents *contents) {
+    uint32_t count = fr_contents_count(contents);
+    uint32_t *numbers = g_new0(uint32_t, count);
+    // The last one of a tag and parent → its index + 1.
+    GHashTable *last = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+    for (uint32_t i = 0; i < count; i++) {
+        const FrContentsElement *at = fr_contents_at(contents, i);
+        char *which = g_strdup_printf("%u/%s", at->parent, at->name);
+        uint32_t before = GPOINTER_TO_UINT(g_hash_table_lookup(last, which));
+        if (before != 0) {
+            numbers[before - 1] = MAX(numbers[before - 1], 1);
+            numbers[i] = numbers[before - 1] + 1;
+        }
+        g_hash_table_replace(last, which, GUINT_TO_POINTER(i + 1));
+    }
+    g_hash_table_unref(last);
+    return numbers;
+}
+
 // The element of that step among siblings from one on, FR_NONE.
 static uint32_t find_step(const FrContents *contents, uint32_t first, const char *step) {
     size_t length = strcspn(step, ":#");
