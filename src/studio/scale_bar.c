@@ -27,6 +27,7 @@ static gboolean on_idle(gpointer data) {
     gtk_label_set_text(GTK_LABEL(bar->label), text);
     gtk_widget_set_size_request(bar->label, (int)(scale.pixels + 0.5), -1);
     studio_name(bar->label, name);
+    gtk_widget_set_visible(bar->box, TRUE);
     g_free(name);
     g_free(text);
     return G_SOURCE_REMOVE;
@@ -102,6 +103,7 @@ void studio_scale_bar_add(GtkOverlay *overlay, StudioViewport *viewport) {
     gtk_widget_set_halign(bar->box, GTK_ALIGN_START);
     gtk_widget_set_valign(bar->box, GTK_ALIGN_END);
     gtk_widget_set_can_target(bar->box, FALSE);
+    gtk_widget_set_visible(bar->box, FALSE); // until there is a picture
     gtk_box_append(GTK_BOX(bar->box), bar->label);
     gtk_overlay_add_overlay(overlay, bar->box);
     g_object_set_data_full(G_OBJECT(viewport), "studio-scale-bar", bar, bar_free);
