@@ -51,7 +51,7 @@ typedef struct StudioBudget {
 } StudioBudget;
 
 /// More than this is worth a word, unless the user says otherwise.
-enum { STUDIO_USUAL_BUDGET = 250000, STUDIO_USUAL_MILLISECONDS = 100 };
+enum { STUDIO_USUAL_BUDGET = 250000, STUDIO_USUAL_MILLISECONDS = 250 };
 
 /// `seconds` NAN: unknown.
 StudioLoad studio_load_of(uint64_t instances, double seconds, const StudioBudget *budget);
