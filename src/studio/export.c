@@ -1,6 +1,7 @@
 /// The dialog that writes a model for another program.
 #include "studio/accessible.h"
 #include "studio/model/profile.h"
+#include "studio/widgets.h"
 #include "studio/window_private.h"
 
 // An export that runs: it outlives its dialog.
@@ -115,15 +116,11 @@ static void begin(Job *job, const char *path) {
 }
 
 static void on_chosen(GtkNativeDialog *chooser, int response, Job *job) {
-    GFile *file = response == GTK_RESPONSE_ACCEPT
-                      ? gtk_file_chooser_get_file(GTK_FILE_CHOOSER(chooser))
-                      : NULL;
-    char *path = file == NULL ? NULL : g_file_get_path(file);
+    char *path = studio_chosen_path(chooser, response);
     if (path != NULL && job->dialog != NULL) {
         begin(job, path);
     }
     g_free(path);
-    g_clear_object(&file);
     g_object_unref(chooser);
 }
 

@@ -18,17 +18,13 @@ static guint chosen;
 G_DEFINE_TYPE(StudioPicturePicker, studio_picture_picker, GTK_TYPE_BOX)
 
 static void on_response(GtkNativeDialog *dialog, int response, StudioPicturePicker *picker) {
-    if (response == GTK_RESPONSE_ACCEPT) {
-        GFile *file = gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog));
-        char *path = g_file_get_path(file);
-        char *name = path == NULL ? NULL : studio_file_from(picker->folder, path);
-        if (name != NULL) {
-            g_signal_emit(picker, chosen, 0, name);
-        }
-        g_free(name);
-        g_free(path);
-        g_object_unref(file);
+    char *path = studio_chosen_path(dialog, response);
+    char *name = path == NULL ? NULL : studio_file_from(picker->folder, path);
+    if (name != NULL) {
+        g_signal_emit(picker, chosen, 0, name);
     }
+    g_free(name);
+    g_free(path);
     g_clear_object(&picker->dialog);
 }
 

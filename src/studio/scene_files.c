@@ -1,5 +1,6 @@
 /// Meshes and height maps that a scene takes from files, and the actions of its tools.
 #include "studio/scene_tool_private.h"
+#include "studio/widgets.h"
 
 #include <math.h>
 #include <string.h>
@@ -77,17 +78,14 @@ typedef struct Asked {
 } Asked;
 
 static void on_response(GtkNativeDialog *dialog, int response, Asked *asked) {
-    if (response == GTK_RESPONSE_ACCEPT && asked->tool->window->document != NULL) {
-        GFile *file = gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog));
-        char *path = g_file_get_path(file);
-        if (path != NULL && asked->is_ground) {
-            set_terrain(asked->tool, path);
-        } else if (path != NULL) {
-            add_mesh(asked->tool, path, asked->at);
-        }
-        g_free(path);
-        g_object_unref(file);
+    char *path = studio_chosen_path(dialog, response);
+    bool is_wanted = path != NULL && asked->tool->window->document != NULL;
+    if (is_wanted && asked->is_ground) {
+        set_terrain(asked->tool, path);
+    } else if (is_wanted) {
+        add_mesh(asked->tool, path, asked->at);
     }
+    g_free(path);
     g_object_unref(dialog);
     g_free(asked);
 }

@@ -3,6 +3,7 @@
 #include "studio/sketch_panel_private.h"
 
 #include "studio/model/commands.h"
+#include "studio/widgets.h"
 
 #include <string.h>
 
@@ -75,15 +76,11 @@ static void listen(StudioSketchPanel *panel, const char *path) {
 }
 
 static void on_device_response(GtkNativeDialog *dialog, int response, StudioSketchPanel *panel) {
-    GFile *file = response == GTK_RESPONSE_ACCEPT
-                      ? gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog))
-                      : NULL;
-    char *path = file == NULL ? NULL : g_file_get_path(file);
+    char *path = studio_chosen_path(dialog, response);
     if (path != NULL) {
         listen(panel, path);
     }
     g_free(path);
-    g_clear_object(&file);
     g_object_unref(dialog);
 }
 

@@ -56,3 +56,12 @@ void studio_close_on_escape(GtkWidget *window) {
                                                           gtk_named_action_new("window.close")));
     gtk_widget_add_controller(window, keys);
 }
+
+char *studio_chosen_path(GtkNativeDialog *chooser, int response) {
+    GFile *file = response == GTK_RESPONSE_ACCEPT
+                      ? gtk_file_chooser_get_file(GTK_FILE_CHOOSER(chooser))
+                      : NULL;
+    char *path = file == NULL ? NULL : g_file_get_path(file);
+    g_clear_object(&file);
+    return path;
+}

@@ -21,5 +21,9 @@ void studio_close_on_escape(GtkWidget *window);
 /// GtkGestureDrag.
 GtkGesture *studio_listen_to_drags(GtkWidget *widget, GCallback begin, GCallback update,
                                    GCallback end, void *data);
+/// The file or folder that was chosen; NULL: none was, or it is not on this computer. Free with
+/// g_free().
+char *studio_chosen_path(GtkNativeDialog *chooser, int response);
+
 /// Listens to the button of the pointer that asks for a menu; `pressed` as of GtkGestureClick.
 void studio_listen_for_menu(GtkWidget *widget, GCallback pressed, void *data);

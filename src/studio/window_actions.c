@@ -3,6 +3,7 @@
 #include "studio/model/removal.h"
 #include "studio/model/scene_edit.h"
 #include "studio/views_menu.h"
+#include "studio/widgets.h"
 #include "studio/window_private.h"
 
 #include <math.h>
@@ -19,15 +20,11 @@ static GtkFileFilter *document_filter(void) {
 }
 
 static void on_open_response(GtkNativeDialog *dialog, int response, StudioWindow *window) {
-    if (response == GTK_RESPONSE_ACCEPT) {
-        GFile *file = gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog));
-        char *path = g_file_get_path(file);
-        if (path != NULL) {
-            studio_window_open(window, path);
-        }
-        g_free(path);
-        g_object_unref(file);
+    char *path = studio_chosen_path(dialog, response);
+    if (path != NULL) {
+        studio_window_open(window, path);
     }
+    g_free(path);
     g_object_unref(dialog);
 }
 
@@ -61,16 +58,14 @@ static bool save_to(StudioWindow *window, const char *path) {
 }
 
 static void on_save_response(GtkNativeDialog *dialog, int response, StudioWindow *window) {
-    if (response == GTK_RESPONSE_ACCEPT) {
-        GFile *file = gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog));
-        char *path = g_file_get_path(file);
+    char *path = studio_chosen_path(dialog, response);
+    if (path != NULL) {
         char *whole =
             g_str_has_suffix(path, ".frond") ? g_strdup(path) : g_strconcat(path, ".frond", NULL);
         save_to(window, whole);
         g_free(whole);
-        g_free(path);
-        g_object_unref(file);
     }
+    g_free(path);
     g_object_unref(dialog);
 }
 

@@ -67,15 +67,11 @@ static void propose(Asked *asked) {
 }
 
 static void on_folder_chosen(GtkNativeDialog *chooser, int response, Asked *asked) {
-    GFile *file = response == GTK_RESPONSE_ACCEPT
-                      ? gtk_file_chooser_get_file(GTK_FILE_CHOOSER(chooser))
-                      : NULL;
-    char *path = file == NULL ? NULL : g_file_get_path(file);
+    char *path = studio_chosen_path(chooser, response);
     if (path != NULL) {
         gtk_editable_set_text(asked->folder, path);
     }
     g_free(path);
-    g_clear_object(&file);
     g_object_unref(chooser);
 }
 

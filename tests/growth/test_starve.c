@@ -186,17 +186,6 @@ static void test_thinning(void) {
     clear_stand(&world);
 }
 
-static void save_and_restore(World *world) {
-    GBytes *bytes = fr_growth_save(world->growth);
-    fr_growth_free(world->growth);
-    g_assert_cmpint(fr_growth_new(&world->setup, &world->context, &world->growth), ==, FR_OK);
-    gsize size;
-    const void *data = g_bytes_get_data(bytes, &size);
-    g_assert_cmpint(fr_growth_restore(world->growth, data, size, (FrSpan){0}, &world->context), ==,
-                    FR_OK);
-    g_bytes_unref(bytes);
-}
-
 /// The same plants die in the same steps, resumed after each or not, with any threads.
 static void test_same(void) {
     enum { FEW = 14 };
@@ -211,7 +200,7 @@ static void test_same(void) {
     sow_stand(&world, 3);
     for (int step = 0; step < FEW; step++) {
         g_assert_cmpuint(world_step(&world, 1).digest, ==, wanted[step]);
-        save_and_restore(&world);
+        world_resume(&world);
         g_assert_cmpuint(fr_growth_stats(world.growth).digest, ==, wanted[step]);
     }
     clear_stand(&world);

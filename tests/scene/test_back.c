@@ -1,6 +1,6 @@
 /// Steps that are taken back in scenes where L-systems grow, too; and those that fail or go on in a
 /// changed document.
-#include "frond/simulation.h"
+#include "run.h"
 
 #include <math.h>
 #include <string.h>
@@ -33,47 +33,6 @@ static const char drawn[] = DOCUMENT(TREE DRAWN, WORLD STANDS);
 static const char moved[] =
     DOCUMENT(TREE ASKING(""), WORLD STANDS "<place plant='l' at='2,0,0'/><obstacle at='0,2,0'/>");
 static const char other[] = DOCUMENT(TREE ASKING("F(0.1)"), WORLD STANDS);
-
-typedef struct Run {
-    FrContext context;
-    FrDocument *document;
-    FrSimulation *simulation;
-} Run;
-
-static FrDocument *parse(const char *text, const FrContext *context) {
-    FrSource *source = fr_source_new("back.frond", text, strlen(text));
-    FrDocument *document;
-    g_assert_cmpint(fr_document_parse(source, NULL, context, &document), ==, FR_OK);
-    fr_source_unref(source);
-    return document;
-}
-
-static Run begin(const char *text, uint32_t history) {
-    Run run = {.context = fr_context_default()};
-    run.context.diags = fr_diags_new();
-    run.document = parse(text, &run.context);
-    g_assert_cmpint(fr_simulation_new(run.document, -1, history, &run.context, &run.simulation), ==,
-                    FR_OK);
-    return run;
-}
-
-static void step(Run *run, int count) {
-    for (int i = 0; i < count; i++) {
-        g_assert_cmpint(fr_simulation_step(run->simulation, &run->context), ==, FR_OK);
-    }
-}
-
-static void end(Run *run) {
-    fr_simulation_free(run->simulation);
-    fr_document_free(run->document);
-    fr_diags_free(run->context.diags);
-}
-
-static const FrScene *scene_of(Run *run) {
-    const FrScene *scene;
-    g_assert_cmpint(fr_simulation_scene(run->simulation, &run->context, &scene), ==, FR_OK);
-    return scene;
-}
 
 static FrDigest digest(Run *run) {
     return fr_scene_digest(scene_of(run));

@@ -1,7 +1,6 @@
 /// Scenes that grow step by step, are looked at, changed, taken back and saved.
 #include "built.h"
-
-#include "frond/simulation.h"
+#include "run.h"
 #include "scene/solids.h"
 
 #include <cglm/struct.h>
@@ -13,49 +12,12 @@
     "<frond version='1'><plant id='a'>" SPECIES(attributes) "</plant><plant id='b'>" SPECIES(      \
         "laterals='3'") "</plant><scene>" WORLD scene "</scene></frond>"
 
-typedef struct Run {
-    FrContext context;
-    FrDocument *document;
-    FrSimulation *simulation;
-} Run;
-
-static FrDocument *parse(const char *text, const FrContext *context) {
-    FrSource *source = fr_source_new("wood.frond", text, strlen(text));
-    FrDocument *document;
-    g_assert_cmpint(fr_document_parse(source, NULL, context, &document), ==, FR_OK);
-    fr_source_unref(source);
-    return document;
-}
-
-static Run begin(const char *text, uint32_t history) {
-    Run run = {.context = fr_context_default()};
-    run.context.diags = fr_diags_new();
-    run.document = parse(text, &run.context);
-    g_assert_cmpint(fr_simulation_new(run.document, -1, history, &run.context, &run.simulation), ==,
-                    FR_OK);
-    return run;
-}
-
-static void step(Run *run, int count) {
-    for (int i = 0; i < count; i++) {
-        g_assert_cmpint(fr_simulation_step(run->simulation, &run->context), ==, FR_OK);
-    }
-}
-
-static void end(Run *run) {
-    fr_simulation_free(run->simulation);
-    fr_document_free(run->document);
-    fr_diags_free(run->context.diags);
-}
-
 static FrDigest digest(const Run *run) {
     return fr_simulation_stats(run->simulation).digest;
 }
 
 static const FrPlant *plant_of(Run *run, guint index) {
-    const FrScene *scene;
-    g_assert_cmpint(fr_simulation_scene(run->simulation, &run->context, &scene), ==, FR_OK);
-    return g_array_index(scene->plants, FrScenePlant, index).plant;
+    return g_array_index(scene_of(run)->plants, FrScenePlant, index).plant;
 }
 
 /// Mean height that internodes born after a step win over their length.

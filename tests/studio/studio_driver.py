@@ -201,6 +201,14 @@ class Studio:
         self.program.wait()
 
 
+def main(tests, make_run, reason):
+    """Runs the tests, or tells the reason why they cannot be; `make_run` makes what they share."""
+    if reason is not None:
+        print(f"1..0 # SKIP {reason}")
+    else:
+        run_tests(tests, make_run())
+
+
 def run_tests(tests, run):
     """Tells in TAP how each test went; `run` is what they are handed."""
     print(f"1..{len(tests)}", flush=True)

@@ -226,13 +226,5 @@ def test_dividers(run):
 TESTS = [test_names, test_roles, test_tab, test_graph, test_curve, test_dividers]
 
 
-def main():
-    reason = driver.why_not() or driver.Bus.why_not()
-    if reason is not None:
-        print(f"1..0 # SKIP {reason}")
-        return
-    driver.run_tests(TESTS, Run())
-
-
 if __name__ == "__main__":
-    main()
+    driver.main(TESTS, Run, driver.why_not() or driver.Bus.why_not())

@@ -176,15 +176,7 @@ TESTS = [
     test_dialogs, test_killed]
 
 
-def main():
-    reason = driver.why_not()
-    if reason is not None:
-        print(f"1..0 # SKIP {reason}")
-        return
-    # A word leaves out the tests that have it in their names.
-    tests = [test for test in TESTS if not any(word in test.__name__ for word in sys.argv[1:])]
-    driver.run_tests(tests, Run())
-
-
 if __name__ == "__main__":
-    main()
+    # A word leaves out the tests that have it in their names.
+    wanted = [test for test in TESTS if not any(word in test.__name__ for word in sys.argv[1:])]
+    driver.main(wanted, Run, driver.why_not())

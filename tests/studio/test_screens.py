@@ -212,13 +212,5 @@ TESTS = [test_pick, test_handles, test_stroke, test_small, test_netbook, test_fo
          test_letters]
 
 
-def main():
-    reason = driver.why_not()
-    if reason is not None:
-        print(f"1..0 # SKIP {reason}")
-        return
-    driver.run_tests(TESTS, Run())
-
-
 if __name__ == "__main__":
-    main()
+    driver.main(TESTS, Run, driver.why_not())

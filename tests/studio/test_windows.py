@@ -439,13 +439,5 @@ TESTS = [test_views, test_views_by_keys, test_removed, test_rename_preset, test_
          test_recent, test_preferences, test_shortcuts, test_picture, test_pen]
 
 
-def main():
-    reason = driver.why_not()
-    if reason is not None:
-        print(f"1..0 # SKIP {reason}")
-        return
-    driver.run_tests(TESTS, Run())
-
-
 if __name__ == "__main__":
-    main()
+    driver.main(TESTS, Run, driver.why_not())
